@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <exception>
+#include <iostream>
+
+#include "verbs.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Visual Monte Carlo localization of a wheeled robot on flat ground.", "vmcl"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", VMCL_VERSION);
+  app.footer("Each verb explains itself: vmcl VERB --help");
+  int exit_code = vmcl::exit_done;
+  vmcl::addSimulateVerb(app, exit_code);
+  vmcl::addImportVerb(app, exit_code);
+  vmcl::addMapVerb(app, exit_code);
+  vmcl::addLocalizeVerb(app, exit_code);
+  vmcl::addRelocalizeVerb(app, exit_code);
+  vmcl::addEstimateVerb(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? vmcl::exit_done : vmcl::exit_failed;
+  } catch (const std::exception& error) {
+    std::cerr << "vmcl: " << error.what() << '\n';
+    return vmcl::exit_failed;
+  }
+  return exit_code;
+}

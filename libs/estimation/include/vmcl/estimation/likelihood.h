@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "vmcl/geometry/pose_problem.h"
+
+namespace vmcl {
+
+struct LikelihoodOptions {
+  double sigma_px = 2;        ///< standard deviation of a pixel coordinate, in either image
+  double inlier_prior = 0.3;  ///< chance that a match is an inlier, in (0, 1)
+
+  /// Throws std::invalid_argument naming the bad key.
+  void check() const;
+};
+
+/// How well a robot pose explains what the cameras saw: the log likelihood ratio of "this pose and noise" against
+/// "outliers anywhere",
+///
+///     L(pose) = sum over matches of log(1 - e + e p(residual at pose) / u),
+///
+/// 0 when the pose explains nothing. The one score of sampling, refinement, mode weights and particles.
+/// - 2D-3D: p is the 2-D Gaussian of the reprojection residual, its covariance the pixel noise plus the point's own
+///   covariance carried into the image at that pose; u is one over the image area.
+/// - 2D-2D: p is the 1-D Gaussian of the Sampson residual of the epipolar constraint, zero behind a camera; u is one
+///   over the image extent across the epipolar line.
+class PoseLikelihood {
+ public:
+  /// Prepares once what every pose needs. Throws std::invalid_argument as PoseProblem::check and options.check do.
+  PoseLikelihood(const PoseProblem& problem, const LikelihoodOptions& options);
+  ~PoseLikelihood();
+  PoseLikelihood(PoseLikelihood&&) noexcept;
+  PoseLikelihood& operator=(PoseLikelihood&&) noexcept;
+
+  /// L at one pose of the robot in the map. Finite for finite poses.
+  double operator()(const PlanarPose& robot_in_map) const;
+
+  /// L at many poses; sizes must agree. Thread safe.
+  void evaluate(std::span<const PlanarPose> robot_in_map, std::span<double> log_likelihoods) const;
+
+  int matchCount() const;
+
+ private:
+  friend class PoseRefiner;
+  struct Prepared;
+  std::unique_ptr<Prepared> prepared_;
+};
+
+}  // namespace vmcl

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "vmcl/geometry/camera.h"
+#include "vmcl/geometry/planar_pose.h"
+#include "vmcl/geometry/pose_problem.h"
+#include "vmcl/vision/features.h"
+#include "vmcl/vision/place_recognition.h"
+
+namespace vmcl {
+
+/// A camera of the robot that made the map.
+struct MapCamera {
+  std::string label;  ///< sensor label in the log
+  CameraCalibration calibration;
+  Rigid3 robot_from_camera = Rigid3::Identity();  ///< as estimated by the builder
+  int mask_rows_from_top = 0;                     ///< rows that show the robot itself
+};
+
+/// A scene point seen from several keyframes.
+struct Landmark {
+  Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  int observation_count = 0;
+};
+
+/// An image of the map session, reduced to what localization needs.
+struct Keyframe {
+  double time = 0;  ///< seconds
+  int camera = 0;   ///< index into KeyframeMap::cameras
+  Rigid3 map_from_robot = Rigid3::Identity();
+  FeatureSet features;
+  std::vector<int> landmark_of_feature;  ///< index into KeyframeMap::landmarks, -1 where none; one per feature
+};
+
+/// What is kept of the places where the robot has been. Plain data; MapBuilder makes it, map_file.h stores it.
+struct KeyframeMap {
+  FeatureOptions feature_options;
+  std::vector<MapCamera> cameras;
+  std::vector<Keyframe> keyframes;
+  std::vector<Landmark> landmarks;
+  VladVocabulary vocabulary;
+  Eigen::MatrixXf place_descriptors;  ///< one column a keyframe
+
+  /// Throws std::invalid_argument naming the broken entry: indices out of range, sizes that disagree, values that are
+  /// not finite.
+  void check() const;
+
+  ReferenceCamera referenceCamera(const Keyframe& keyframe) const {
+    const MapCamera& camera = cameras[static_cast<std::size_t>(keyframe.camera)];
+    return {camera.calibration.pinhole, keyframe.map_from_robot * camera.robot_from_camera};
+  }
+};
+
+}  // namespace vmcl

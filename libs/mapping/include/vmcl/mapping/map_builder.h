@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "vmcl/mapping/keyframe_map.h"
+#include "vmcl/vision/feature_matching.h"
+#include "vmcl/vision/image.h"
+
+namespace vmcl {
+
+struct MapBuilderOptions {
+  FeatureOptions features;
+  MatchingOptions matching;
+  double keyframe_distance = 0.10;   ///< a new keyframe after this way (m)
+  double keyframe_rotation = 0.09;   ///< or this turn (rad)
+  double sigma_px = 1.0;             ///< standard deviation of a feature's position
+  double sigma_position = 0.02;      ///< prior of the given robot positions (m)
+  double sigma_heading = 0.01;       ///< prior of the given robot headings (rad)
+  double sigma_mount_tilt = 0.05;    ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
+  int words = 64;                    ///< vocabulary of place recognition
+  uint64_t seed = 1;
+
+  /// Throws std::invalid_argument naming the bad key.
+  void check() const;
+};
+
+/// What building did, for people.
+struct MapBuildReport {
+  int frames = 0;
+  int keyframes = 0;
+  int features = 0;
+  int landmarks = 0;
+  double mean_observations = 0;       ///< per landmark
+  double median_reprojection_px = 0;  ///< after adjustment
+  std::vector<Eigen::Vector3d> mount_correction;  ///< per camera: roll, pitch, yaw turned about the robot axes (rad)
+};
+
+/// Called with the stage's name and the share done in [0, 1].
+using BuildProgress = std::function<void(std::string_view stage, double share)>;
+
+/// Builds a map from posed images: keyframes by motion, tracks over keyframes that look at the same place,
+/// triangulation, adjustment of landmarks, poses (under their priors) and the mount's tilt, landmark covariances,
+/// vocabulary and place descriptors. Deterministic.
+class MapBuilder {
+ public:
+  MapBuilder(std::vector<MapCamera> cameras, const MapBuilderOptions& options);
+  ~MapBuilder();
+  MapBuilder(MapBuilder&&) noexcept;
+
+  /// Offers an image taken at `time` (s) by camera `camera` with the robot at map_from_robot. Returns whether it was
+  /// taken as a keyframe. Throws std::invalid_argument for a bad image size, index or pose.
+  bool add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image);
+
+  int keyframeCount() const;
+
+  /// Consumes the keyframes. Throws std::runtime_error when there are none.
+  std::pair<KeyframeMap, MapBuildReport> build(const BuildProgress& progress = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vmcl

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "vmcl/estimation/estimator.h"
+#include "vmcl/mapping/keyframe_map.h"
+#include "vmcl/vision/feature_matching.h"
+#include "vmcl/vision/image.h"
+
+namespace vmcl {
+
+struct RelocalizerOptions {
+  MatchingOptions matching;
+  int retrieved = 3;                 ///< reference keyframes per image (the paper's 3)
+  double reliable_depth = 5;         ///< landmarks farther from the reference than this (m) give 2D-2D matches
+  double max_point_sigma = 0.25;     ///< and so do landmarks less certain than this (m, largest axis)
+  EstimatorOptions estimator;
+
+  /// Throws std::invalid_argument naming the bad key.
+  void check() const;
+};
+
+/// An image of the robot that is to be localized.
+struct QueryImage {
+  ImageView image;
+  CameraCalibration calibration;
+  Rigid3 robot_from_camera = Rigid3::Identity();
+  int mask_rows_from_top = 0;
+};
+
+/// Seconds spent in each step.
+struct RelocalizationTimes {
+  double features = 0;
+  double retrieval = 0;
+  double matching = 0;
+  double estimation = 0;
+};
+
+struct RelocalizationResult {
+  PoseProblem problem;              ///< the matches that the estimate rests on
+  std::vector<int> keyframes;       ///< of the map, one per reference camera of the problem
+  PoseEstimate estimate;
+  RelocalizationTimes times;
+};
+
+/// Finds the robot in the map from its images alone: features, place recognition, matching, estimation. Thread safe.
+class Relocalizer {
+ public:
+  /// Throws std::invalid_argument for bad options or an empty map.
+  Relocalizer(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options);
+  ~Relocalizer();
+
+  const KeyframeMap& map() const;
+  const RelocalizerOptions& options() const;
+
+  /// Features, retrieval and matching only; `estimate` stays empty. Throws std::invalid_argument for a malformed image.
+  RelocalizationResult match(std::span<const QueryImage> images) const;
+
+  /// All of it.
+  RelocalizationResult relocalize(std::span<const QueryImage> images) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vmcl

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace vmcl {
+
+/// Somebody else's pixels, 8 bit, rows from the top, one channel (grey) or three (BGR).
+struct ImageView {
+  const uint8_t* pixels = nullptr;
+  int width = 0;
+  int height = 0;
+  int channels = 1;
+  std::size_t row_bytes = 0;
+
+  bool empty() const { return pixels == nullptr || width <= 0 || height <= 0; }
+};
+
+/// An owned grey image.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> pixels;
+
+  ImageView view() const { return {pixels.data(), width, height, 1, static_cast<std::size_t>(width)}; }
+};
+
+/// Reads an image file as grey. Throws std::runtime_error naming the file: missing, no image, or more than
+/// 100 megapixels.
+Image readImage(const std::filesystem::path& file);
+
+}  // namespace vmcl
