@@ -18,6 +18,9 @@ enum class FeatureKind : uint8_t { orb = 1, sift = 2 };
 FeatureKind featureKindFromName(std::string_view name);
 std::string_view nameOf(FeatureKind kind);
 
+/// Length of a descriptor: 32 for ORB, 128 for SIFT.
+int descriptorBytes(FeatureKind kind);
+
 /// One descriptor a row: 32 bytes of bits for ORB (Hamming distance), 128 bytes for SIFT (RootSIFT, Euclidean).
 using Descriptors = Eigen::Matrix<uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -25,7 +28,7 @@ using Descriptors = Eigen::Matrix<uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen
 struct FeatureSet {
   FeatureKind kind = FeatureKind::orb;
   std::vector<Eigen::Vector2f> pixels;  ///< ideal (undistorted) pixels
-  std::vector<float> sizes;             ///< diameter of the described patch, pixels
+  std::vector<float> sizes;             ///< diameter of the detected structure, pixels
   std::vector<float> responses;         ///< detector strength, larger is stronger
   Descriptors descriptors;              ///< pixels.size() rows
 
@@ -51,8 +54,8 @@ class FeatureExtractor {
 
   const FeatureOptions& options() const;
 
-  /// Features of an image taken with this camera. Throws std::invalid_argument when the image's size differs from the
-  /// calibration's. A blank image has none.
+  /// Features of an image taken with this camera, strongest first. Throws std::invalid_argument when the image's size
+  /// differs from the calibration's or the mask leaves nothing of it. A blank image has none.
   FeatureSet extract(const ImageView& image, const CameraCalibration& calibration) const;
 
  private:

@@ -28,8 +28,8 @@ struct Image {
   ImageView view() const { return {pixels.data(), width, height, 1, static_cast<std::size_t>(width)}; }
 };
 
-/// Reads an image file as grey. Throws std::runtime_error naming the file: missing, no image, or more than
-/// 100 megapixels.
+/// Reads a PNG or JPEG file as grey; an orientation tag is ignored, since calibrations speak of the pixels as stored.
+/// Throws std::runtime_error naming the file: missing, no such image, cut off, or more than 100 megapixels.
 Image readImage(const std::filesystem::path& file);
 
 }  // namespace vmcl
