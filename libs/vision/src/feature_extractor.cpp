@@ -44,12 +44,19 @@ cv::Mat visibleGrey(const ImageView& image, int mask_rows) {
   return grey;
 }
 
-/// Where the keypoint really is, in pixels of the image. OpenCV 4.6 scales pyramid coordinates about the corner of the
-/// image, but resizes about the corner of its first pixel.
-cv::Point2f unbiasedPosition(const cv::KeyPoint& keypoint, FeatureKind kind) {
-  if (kind == FeatureKind::sift) return keypoint.pt - cv::Point2f(0.25f, 0.25f);
-  const float shift = 0.5f * (std::pow(orb_pyramid_scale, static_cast<float>(keypoint.octave)) - 1);
-  return keypoint.pt + cv::Point2f(shift, shift);
+/// Coordinate along an image side of a keypoint of ORB: OpenCV multiplies the coordinate in the pyramid's level by the
+/// scale, but the level's pixels are areas, and its side was rounded.
+float unbiasedCoordinate(float coordinate, int octave, int side) {
+  const float scale = std::pow(orb_pyramid_scale, static_cast<float>(octave));
+  const float true_scale = static_cast<float>(side) / std::round(static_cast<float>(side) / scale);
+  return (coordinate / scale + 0.5f) * true_scale - 0.5f;
+}
+
+/// Where the keypoint really is, in pixels of the image.
+cv::Point2f unbiasedPosition(const cv::KeyPoint& keypoint, FeatureKind kind, cv::Size size) {
+  if (kind == FeatureKind::sift) return keypoint.pt - cv::Point2f(0.25f, 0.25f);  // from doubling the image
+  return {unbiasedCoordinate(keypoint.pt.x, keypoint.octave, size.width),
+          unbiasedCoordinate(keypoint.pt.y, keypoint.octave, size.height)};
 }
 
 /// RootSIFT (Arandjelovic and Zisserman, CVPR 2012): square roots of the L1-normalized histogram, a unit vector,
@@ -114,7 +121,7 @@ FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibra
   features.descriptors.resize(static_cast<Eigen::Index>(kept.size()), descriptorBytes(options.kind));
   for (int row : kept) {
     const cv::KeyPoint& keypoint = keypoints[static_cast<std::size_t>(row)];
-    const cv::Point2f position = unbiasedPosition(keypoint, options.kind);
+    const cv::Point2f position = unbiasedPosition(keypoint, options.kind, grey.size());
     const Eigen::Vector2d distorted(position.x, position.y + static_cast<float>(options.mask_rows_from_top));
     const Eigen::Vector2d ideal = calibration.undistort(distorted);
     // Far outside the calibrated field the distortion has no inverse.
