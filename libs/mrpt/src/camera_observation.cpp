@@ -1,1 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/camera_observation.h"
+
+#include <mrpt/img/CImage.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace vmcl {
+namespace {
+
+CameraCalibration calibrationOf(const mrpt::img::TCamera& camera) {
+  using mrpt::img::DistortionModel;
+  if (camera.fx() == 0 && camera.fy() == 0) throw std::runtime_error("no intrinsics");
+  CameraCalibration calibration;
+  calibration.pinhole = {static_cast<int>(camera.ncols),
+                         static_cast<int>(camera.nrows),
+                         camera.fx(),
+                         camera.fy(),
+                         camera.cx(),
+                         camera.cy()};
+  if (camera.distortion != DistortionModel::none) {
+    const bool rational = std::any_of(camera.dist.begin() + 5, camera.dist.end(), [](double k) { return k != 0; });
+    if (camera.distortion != DistortionModel::plumb_bob || rational)
+      throw std::runtime_error("lens model other than k1, k2, p1, p2, k3");
+    std::copy_n(camera.dist.begin(), 5, calibration.distortion.begin());
+  }
+  calibration.check();
+  return calibration;
+}
+
+Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
+  Rigid3 rigid = Rigid3::Identity();
+  rigid.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
+  if (!rigid.matrix().allFinite()) throw std::runtime_error("the camera's pose is not finite");
+  return rigid;
+}
+
+Image greyImage(const mrpt::img::CImage& image) {
+  if (image.isExternallyStored()) return readImage(image.getExternalStorageFileAbsolutePath());
+  if (image.isEmpty()) throw std::runtime_error("no image");
+  if (image.getPixelDepth() != mrpt::img::PixelDepth::D8U) throw std::runtime_error("an image that is not 8 bit");
+  const mrpt::img::CImage grey = image.grayscale();
+  Image out{static_cast<int>(grey.getWidth()), static_cast<int>(grey.getHeight()), {}};
+  out.pixels.reserve(grey.getWidth() * grey.getHeight());
+  for (int row = 0; row < out.height; ++row) {
+    const auto* pixels = grey.ptrLine<uint8_t>(row);
+    out.pixels.insert(out.pixels.end(), pixels, pixels + out.width);
+  }
+  return out;
+}
+
+void checkSize(const Image& image, const PinholeCamera& camera) {
+  if (image.width == camera.width && image.height == camera.height) return;
+  const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
+  throw std::runtime_error("the image is " + size(image.width, image.height) + ", its intrinsics are for " +
+                           size(camera.width, camera.height));
+}
+
+CameraObservation convert(const mrpt::obs::CObservation& observation, const mrpt::img::CImage& image,
+                          const mrpt::img::TCamera& camera, const mrpt::poses::CPose3D& robot_from_camera) try {
+  CameraObservation out;
+  out.label = observation.sensorLabel;
+  out.time = mrpt::Clock::toDouble(observation.timestamp);
+  out.calibration = calibrationOf(camera);
+  out.robot_from_camera = rigidOf(robot_from_camera);
+  out.image = greyImage(image);
+  checkSize(out.image, out.calibration.pinhole);
+  return out;
+} catch (const std::exception& error) {
+  throw std::runtime_error("camera '" + observation.sensorLabel + "': " + error.what());
+}
+
+}  // namespace
+
+std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation& observation) {
+  if (const auto* camera = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation))
+    return convert(observation, camera->image, camera->cameraParams, camera->cameraPose);
+  if (const auto* depth_camera = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation)) {
+    if (!depth_camera->hasIntensityImage)
+      throw std::runtime_error("camera '" + observation.sensorLabel + "': no image");
+    return convert(observation, depth_camera->intensityImage, depth_camera->cameraParamsIntensity,
+                   depth_camera->sensorPose + depth_camera->relativePoseIntensityWRTDepth);
+  }
+  return std::nullopt;
+}
+
+}  // namespace vmcl

@@ -18,7 +18,11 @@ struct RawlogEntry {
 };
 
 /// Streams a rawlog (plain or gzip) from disk. Images kept outside are looked for in `<rawlog>_Images`, as
-/// rawlog-edit and RawLogViewer do.
+/// rawlog-edit and RawLogViewer do; their names are turned into whole paths, so that no setting of the process is
+/// needed. Classes that are neither action, frame nor observation are skipped.
+///
+/// A log from a stranger cannot overrun the stack or hold absurdly many observations, but MRPT sizes the arrays inside
+/// an observation as the log claims before it reads them: limit the process (ulimit -v) against that.
 class RawlogReader {
  public:
   /// Throws std::runtime_error naming the file: missing, or not a rawlog.
