@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "vmcl/evaluation/localization_picture.h"
+#include "vmcl/geometry/atomic_file.h"
+
+namespace vmcl {
+namespace {
+
+/// A named block of points in a gnuplot script, with the way to draw it. An empty line breaks a path.
+struct Layer {
+  std::string name;
+  std::string style;
+  std::ostringstream points;
+};
+
+void addOccupiedCells(const mrpt::maps::COccupancyGridMap2D& grid, std::ostringstream& points) {
+  constexpr float max_free_probability = 0.4F;
+  for (unsigned x = 0; x < grid.getSizeX(); ++x)
+    for (unsigned y = 0; y < grid.getSizeY(); ++y)
+      if (grid.getCell(static_cast<int>(x), static_cast<int>(y)) < max_free_probability)
+        points << grid.idx2x(x) << ' ' << grid.idx2y(y) << '\n';
+}
+
+std::vector<Layer> layersOf(const LocalizationRun& run, const mrpt::maps::CMultiMetricMap& maps) {
+  std::vector<Layer> layers;
+  Layer cells{"occupied", "with points pt 5 ps 0.25 lc rgb '#707070'", {}};
+  for (const auto& map : maps.maps)
+    if (const auto* grid = dynamic_cast<const mrpt::maps::COccupancyGridMap2D*>(map.get()))
+      addOccupiedCells(*grid, cells.points);
+  layers.push_back(std::move(cells));
+  Layer truth{"ground truth", "with lines lw 3 lc rgb '#2ca02c'", {}};
+  if (run.ground_truth)
+    for (const StampedPose& pose : run.ground_truth->poses())
+      truth.points << pose.map_from_robot.translation().x() << ' ' << pose.map_from_robot.translation().y() << '\n';
+  layers.push_back(std::move(truth));
+  Layer path{"localized", "with lines lw 2 lc rgb '#1f4fd8'", {}};
+  Layer end{"end", "with points pt 7 ps 1 lc rgb '#d62728'", {}};
+  for (const LocalizationFrame& frame : run.frames) {
+    const PlanarPose& pose = frame.cluster.robot_in_map;
+    if (frame.localized) path.points << pose.x << ' ' << pose.y;
+    path.points << '\n';
+  }
+  if (!run.frames.empty() && run.frames.back().localized)
+    end.points << run.frames.back().cluster.robot_in_map.x << ' ' << run.frames.back().cluster.robot_in_map.y << '\n';
+  layers.push_back(std::move(path));
+  layers.push_back(std::move(end));
+  std::erase_if(layers, [](const Layer& l) { return l.points.str().find_first_not_of('\n') == std::string::npos; });
+  return layers;
+}
+
+std::string quoted(const std::filesystem::path& file) {
+  std::string quoted = "'";
+  for (const char c : file.string()) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+void writeScript(std::ostream& script, const std::vector<Layer>& layers, const std::filesystem::path& svg,
+                 const std::filesystem::path& png) {
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    script << "$layer" << i << " << END\n" << layers[i].points.str() << "END\n";
+  script << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset grid lc rgb '#dddddd'\nset key outside\n"
+         << "set terminal svg size 900,700 background rgb 'white'\nset output " << quoted(svg) << "\nplot ";
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    script << (i ? ", " : "") << "$layer" << i << ' ' << layers[i].style << " title '" << layers[i].name << '\'';
+  script << "\nset terminal pngcairo size 900,700\nset output " << quoted(png) << "\nreplot\n";
+}
+
+void runGnuplot(const std::filesystem::path& script) {
+  std::string program = "gnuplot", argument = script.string();
+  char* arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  int status = 0;
+  if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0)
+    throw std::runtime_error("gnuplot cannot be started: is it installed?");
+  if (waitpid(process, &status, 0) != process || status != 0) throw std::runtime_error("gnuplot failed");
+}
+
+}  // namespace
+
+void drawPath(const std::filesystem::path& stem, const LocalizationRun& run, const mrpt::maps::CMultiMetricMap& maps) {
+  const std::vector<Layer> layers = layersOf(run, maps);
+  if (layers.empty()) return;
+  AtomicFile script(stem.string() + ".gnuplot"), svg(stem.string() + ".svg"), png(stem.string() + ".png");
+  writeScript(script.stream(), layers, svg.temporaryPath(), png.temporaryPath());
+  script.stream().flush();
+  runGnuplot(script.temporaryPath());
+  svg.commit();
+  png.commit();
+}
+
+}  // namespace vmcl

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vmcl/mrpt/planar_monte_carlo.h"
+
+namespace vmcl {
+
+/// When the particles count as one known pose.
+struct LocalizedRule {
+  double max_position_deviation = 0.3;  ///< of the dominant cluster, m
+  double max_heading_deviation = 0.17;  ///< of the dominant cluster, rad
+  double min_share = 0.8;               ///< of all weight that the cluster holds, (0, 1]
+  int min_frames = 3;                   ///< updates in a row for which all of this holds
+
+  /// Throws std::invalid_argument naming the bad key.
+  void check() const;
+};
+
+/// A localization experiment as pf-localization's ini describes it, with our own section [vmcl]:
+///
+///     recovery_alpha_slow, recovery_alpha_fast, injection_share, kidnapping_probability   (PlanarMonteCarloOptions)
+///     max_position_deviation, max_heading_deviation_deg, min_share, min_frames            (LocalizedRule)
+///
+/// Of the stock sections these are read: [KLD_options] and [PF_options] whole, [DummyOdometryParams] minStdXY and
+/// minStdPHI, [MetricMap] and the sections of its maps whole, [LocalizationExperiment] map_file, rawlog_file,
+/// rawlog_offset, particles_count (the first, if several), init_PDF_mode, init_PDF_min_x and so on, use_3D_poses (must
+/// be false). What concerns windows, repetitions and stock's own output is left alone.
+struct LocalizationConfig {
+  mrpt::maps::TSetOfMetricMapInitializers maps;
+  std::filesystem::path map_file;  ///< .simplemap(.gz) or .gridmap(.gz); empty: the maps bring their own content
+  std::filesystem::path rawlog_file;
+  int rawlog_offset = 0;  ///< steps skipped
+  int particles_count = 0;
+  PoseBox start;
+  bool start_in_free_space = false;                                     ///< of the grid map; else anywhere in the box
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions motion_model;  ///< for logs of observations only
+  PlanarMonteCarlo::KldOptions kld;
+  PlanarMonteCarlo::ParticleFilterOptions filter;
+  PlanarMonteCarloOptions monte_carlo;
+  LocalizedRule localized;
+};
+
+/// Reads the ini. `map_files` take the place of map_file, or, for a .vmap, of the map_file of the first visual map; a
+/// `rawlog_file` takes the place of rawlog_file. Relative paths in the ini start at the working directory or, if there
+/// is no such file, at the directory of the ini. Throws std::runtime_error naming the file and what is wrong: missing,
+/// a key or value that is bad or not known, a `*_count` of no known map.
+LocalizationConfig loadLocalizationConfig(const std::filesystem::path& ini,
+                                          const std::vector<std::filesystem::path>& map_files = {},
+                                          const std::filesystem::path& rawlog_file = {});
+
+/// Creates the maps and fills them. Throws std::runtime_error naming the map file and what is wrong.
+mrpt::maps::CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config);
+
+}  // namespace vmcl

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <span>
+
+#include "vmcl/estimation/estimator.h"
+#include "vmcl/mrpt/pose_region.h"
+
+namespace vmcl {
+
+/// What a metric map may offer beyond mrpt::maps::CMetricMap: to weigh all particles at once, and to say from an
+/// observation alone where it was taken.
+class RelocalizingMap {
+ public:
+  virtual ~RelocalizingMap() = default;
+
+  /// Adds the log likelihood of the observation at each pose; sizes must agree. The sums do not depend on `threads`.
+  /// Never throws: an observation that cannot be used adds nothing.
+  virtual void addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
+                                 int threads, std::span<double> log_likelihoods) const = 0;
+
+  /// Where the robot may have been; nothing found: no modes and a reason. Throws std::runtime_error naming the sensor
+  /// when the observation is broken.
+  virtual PoseEstimate relocalize(const mrpt::obs::CObservation& observation) const = 0;
+
+  /// Widens the box to what the map covers.
+  virtual void extend(PoseBox& box) const = 0;
+};
+
+}  // namespace vmcl

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/localization_config.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/maps/TMetricMapTypesRegistry.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/ini_section.h"
+
+namespace vmcl {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::config::CConfigFileMemory;
+using mrpt::system::lowerCase;
+
+constexpr int max_particles = 10'000'000;
+constexpr const char* first_visual_map = "MetricMap_visualKeyframes_00_creationOpts";
+
+CConfigFileMemory readIni(const fs::path& file) {
+  constexpr std::uintmax_t max_bytes = 16 << 20;
+  std::ifstream in(file, std::ios::binary);
+  std::error_code error;
+  const auto bytes = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
+  if (!in || error) throw std::runtime_error("cannot be opened");
+  if (bytes > max_bytes) throw std::runtime_error("is no ini: larger than 16 MiB");
+  CConfigFileMemory ini;
+  ini.setContent(std::string(std::istreambuf_iterator<char>(in), {}));
+  if (!ini.sectionExists("LocalizationExperiment")) throw std::runtime_error("has no section [LocalizationExperiment]");
+  return ini;
+}
+
+void refuseUnknownMaps(const CConfigFileMemory& ini) {
+  std::vector<std::string> keys;
+  ini.getAllKeys("MetricMap", keys);
+  const auto& known = mrpt::maps::internal::TMetricMapTypesRegistry::Instance().getAllRegistered();
+  for (const std::string& key : keys) {
+    if (!lowerCase(key).ends_with("_count")) continue;
+    const std::string map = key.substr(0, key.size() - std::string_view("_count").size());
+    if (std::none_of(known.begin(), known.end(), [&](const auto& k) { return lowerCase(k.first) == lowerCase(map); }))
+      throw std::invalid_argument("[MetricMap] " + key + ": there is no map called '" + map + "'");
+    int count = 0;
+    IniSection section(ini, "MetricMap");
+    section.read(key, count);
+    if (count < 0 || count > 99) section.fail(key, std::to_string(count) + " is not in [0, 99]");
+  }
+}
+
+/// The path as given, or as seen from the directory of the ini if only there is such a file.
+fs::path locate(const fs::path& path, const fs::path& ini) {
+  if (path.empty() || path.is_absolute() || fs::exists(path)) return path;
+  const fs::path beside_ini = ini.parent_path() / path;
+  return fs::exists(beside_ini) ? beside_ini : path;
+}
+
+bool isVisualMap(const fs::path& file) { return file.extension() == ".vmap"; }
+
+/// Brings all map files to where their maps look for them.
+void placeMapFiles(CConfigFileMemory& ini, const fs::path& ini_file, std::vector<fs::path> map_files,
+                   LocalizationConfig& config) {
+  std::string in_ini;
+  IniSection(ini, "LocalizationExperiment").read("map_file", in_ini);
+  const auto of_kind = [](bool visual) {
+    return [visual](const fs::path& file) { return isVisualMap(file) == visual; };
+  };
+  if (!in_ini.empty() && std::none_of(map_files.begin(), map_files.end(), of_kind(isVisualMap(in_ini))))
+    map_files.push_back(locate(in_ini, ini_file));
+  std::vector<std::string> sections;
+  ini.getAllSections(sections);
+  for (const std::string& section : sections)
+    if (const std::string file = ini.read_string(section, "map_file", "");
+        !file.empty() && section.ends_with("_creationOpts"))
+      ini.write(section, "map_file", locate(file, ini_file).string());
+  for (const fs::path& file : map_files) {
+    if (!isVisualMap(file)) {
+      config.map_file = file;
+    } else {
+      if (ini.read_int("MetricMap", "visualKeyframes_count", 0) < 1)
+        throw std::invalid_argument(file.string() + " needs [MetricMap] visualKeyframes_count = 1");
+      ini.write(first_visual_map, "map_file", file.string());
+    }
+  }
+}
+
+int firstCount(IniSection& section, const std::string& key) {
+  std::string counts;
+  section.read(key, counts);
+  int first = 0;
+  if (!(std::istringstream(counts) >> first)) section.fail(key, "'" + counts + "' is not a number of particles");
+  if (first < 1 || first > max_particles)
+    section.fail(key, std::to_string(first) + " is not in [1, " + std::to_string(max_particles) + "]");
+  return first;
+}
+
+void readExperiment(const CConfigFileMemory& ini, const fs::path& ini_file, LocalizationConfig& config) {
+  IniSection section(ini, "LocalizationExperiment");
+  bool in_space = false;
+  section.read("use_3D_poses", in_space);
+  if (in_space) section.fail("use_3D_poses", "only planar poses are supported");
+  std::string rawlog;
+  section.read("rawlog_file", rawlog);
+  if (config.rawlog_file.empty()) config.rawlog_file = locate(rawlog, ini_file);
+  if (config.rawlog_file.empty()) section.fail("rawlog_file", "no rawlog is given");
+  section.read("rawlog_offset", config.rawlog_offset);
+  if (config.rawlog_offset < 0) section.fail("rawlog_offset", "is negative");
+  config.particles_count = firstCount(section, "particles_count");
+}
+
+void readStart(const CConfigFileMemory& ini, LocalizationConfig& config) {
+  IniSection section(ini, "LocalizationExperiment");
+  if (!section.has("init_PDF_mode")) section.fail("init_PDF_mode", "is missing");
+  bool anywhere_in_box = false;
+  section.read("init_PDF_mode", anywhere_in_box);
+  config.start_in_free_space = !anywhere_in_box;
+  PoseBox& box = config.start;
+  double min_yaw_deg = -180, max_yaw_deg = 180;
+  section.read("init_PDF_min_x", box.min_x);
+  section.read("init_PDF_max_x", box.max_x);
+  section.read("init_PDF_min_y", box.min_y);
+  section.read("init_PDF_max_y", box.max_y);
+  section.read("init_PDF_min_yaw_deg", min_yaw_deg);
+  section.read("init_PDF_max_yaw_deg", max_yaw_deg);
+  box.min_phi = mrpt::DEG2RAD(min_yaw_deg);
+  box.max_phi = mrpt::DEG2RAD(max_yaw_deg);
+  try {
+    box.check();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("[LocalizationExperiment] init_PDF: ") + error.what());
+  }
+}
+
+void readMotionModel(const CConfigFileMemory& ini, LocalizationConfig& config) {
+  IniSection section(ini, "DummyOdometryParams");
+  double min_std_position = 0.04, min_std_heading_deg = 2;  // stock's own defaults
+  section.read("minStdXY", min_std_position);
+  section.read("minStdPHI", min_std_heading_deg);
+  if (min_std_position < 0) section.fail("minStdXY", "is negative");
+  if (min_std_heading_deg < 0) section.fail("minStdPHI", "is negative");
+  config.motion_model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
+  config.motion_model.gaussianModel.minStdXY = min_std_position;
+  config.motion_model.gaussianModel.minStdPHI = mrpt::DEG2RAD(min_std_heading_deg);
+}
+
+void readFilter(const CConfigFileMemory& ini, LocalizationConfig& config) {
+  const auto demand = [](bool valid, const char* key) {
+    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
+  };
+  config.kld.loadFromConfigFile(ini, "KLD_options");
+  const auto& kld = config.kld;
+  demand(kld.KLD_minSampleSize >= 1 && kld.KLD_minSampleSize <= max_particles, "[KLD_options] KLD_minSampleSize");
+  demand(kld.KLD_maxSampleSize >= kld.KLD_minSampleSize && kld.KLD_maxSampleSize <= max_particles,
+         "[KLD_options] KLD_maxSampleSize");
+  demand(kld.KLD_binSize_XY > 0 && std::isfinite(kld.KLD_binSize_XY), "[KLD_options] KLD_binSize_XY");
+  demand(kld.KLD_binSize_PHI > 0 && std::isfinite(kld.KLD_binSize_PHI), "[KLD_options] KLD_binSize_PHI_deg");
+  demand(kld.KLD_delta > 0 && kld.KLD_delta < 1, "[KLD_options] KLD_delta");
+  demand(kld.KLD_epsilon > 0 && kld.KLD_epsilon < 1, "[KLD_options] KLD_epsilon");
+  config.filter.loadFromConfigFile(ini, "PF_options");
+  demand(config.filter.BETA >= 0 && config.filter.BETA <= 1, "[PF_options] BETA");
+  demand(config.filter.powFactor > 0 && config.filter.powFactor <= 1, "[PF_options] powFactor");
+}
+
+void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {
+  IniSection section(ini, "vmcl");
+  section.read("recovery_alpha_slow", config.monte_carlo.recovery_alpha_slow);
+  section.read("recovery_alpha_fast", config.monte_carlo.recovery_alpha_fast);
+  section.read("injection_share", config.monte_carlo.injection_share);
+  section.read("kidnapping_probability", config.monte_carlo.kidnapping_probability);
+  section.read("max_position_deviation", config.localized.max_position_deviation);
+  double max_heading_deviation_deg = mrpt::RAD2DEG(config.localized.max_heading_deviation);
+  section.read("max_heading_deviation_deg", max_heading_deviation_deg);
+  config.localized.max_heading_deviation = mrpt::DEG2RAD(max_heading_deviation_deg);
+  section.read("min_share", config.localized.min_share);
+  section.read("min_frames", config.localized.min_frames);
+  section.refuseUnknownKeys();
+  try {
+    config.monte_carlo.check();
+    config.localized.check();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("[vmcl] ") + error.what());
+  }
+}
+
+}  // namespace
+
+void LocalizedRule::check() const {
+  const auto demand = [](bool valid, const char* key) {
+    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
+  };
+  demand(max_position_deviation > 0 && std::isfinite(max_position_deviation), "max_position_deviation");
+  demand(max_heading_deviation > 0 && std::isfinite(max_heading_deviation), "max_heading_deviation_deg");
+  demand(min_share > 0 && min_share <= 1, "min_share");
+  demand(min_frames >= 1, "min_frames");
+}
+
+LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::vector<fs::path>& map_files,
+                                          const fs::path& rawlog_file) try {
+  CConfigFileMemory ini = readIni(ini_file);
+  LocalizationConfig config;
+  config.rawlog_file = rawlog_file;
+  readExperiment(ini, ini_file, config);
+  readStart(ini, config);
+  readMotionModel(ini, config);
+  readFilter(ini, config);
+  readOwnSection(ini, config);
+  refuseUnknownMaps(ini);
+  placeMapFiles(ini, ini_file, map_files, config);
+  config.maps.loadFromConfigFile(ini, "MetricMap");
+  if (config.maps.size() == 0) throw std::invalid_argument("[MetricMap] asks for no map");
+  return config;
+} catch (const std::exception& error) {
+  throw std::runtime_error(ini_file.string() + ": " + errorMessage(error));
+}
+
+}  // namespace vmcl
