@@ -9,19 +9,12 @@
 #include <stdexcept>
 
 #include "rawlog_archive.h"
+#include "vmcl/datasets/rawlog_writer.h"
 
 namespace vmcl {
 namespace {
 
 using mrpt::obs::CObservation;
-
-/// `<rawlog>_Images`, whatever extensions (.rawlog, .rawlog.gz) the log has.
-std::filesystem::path imagesDirectory(const std::filesystem::path& log) {
-  std::filesystem::path stem = std::filesystem::absolute(log);
-  if (stem.extension() == ".gz") stem.replace_extension();
-  stem.replace_extension();
-  return stem += "_Images";
-}
 
 void placeImage(mrpt::img::CImage& image, const std::filesystem::path& directory) {
   if (image.isExternallyStored()) image.setExternalStorage(directory / image.getExternalStorageFile());
@@ -45,7 +38,8 @@ void placeImages(CObservation& observation, const std::filesystem::path& directo
 }  // namespace
 
 struct RawlogReader::State {
-  explicit State(const std::filesystem::path& log) : file(log), images_directory(imagesDirectory(log)), archive(log) {}
+  explicit State(const std::filesystem::path& log)
+      : file(log), images_directory(std::filesystem::absolute(rawlogCompanion(log, "_Images"))), archive(log) {}
 
   /// The next object; null at the end of the log.
   mrpt::serialization::CSerializable::Ptr nextObject() {

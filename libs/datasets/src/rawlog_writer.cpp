@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/datasets/rawlog_writer.h"
+
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/archiveFrom_std_streams.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace vmcl {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
+  throw std::runtime_error(file.string() + ": cannot be written: " + reason);
+}
+
+std::string numbered(const std::string& label, int number, const std::string& extension) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "_%06d", number);
+  return label + digits + extension;
+}
+
+}  // namespace
+
+std::filesystem::path rawlogCompanion(const std::filesystem::path& log, const std::string& suffix) {
+  std::filesystem::path stem = log;
+  if (stem.extension() == ".gz") stem.replace_extension();
+  stem.replace_extension();
+  return stem += suffix;
+}
+
+RawlogWriter::RawlogWriter(const std::filesystem::path& log)
+    : log_(log),
+      file_(log),
+      images_(rawlogCompanion(log, "_Images")),
+      temporary_images_(images_.string() + ".part" + std::to_string(getpid())) {
+  std::error_code error;
+  std::filesystem::remove_all(temporary_images_, error);
+  if (!std::filesystem::create_directory(temporary_images_, error)) fail(images_, error.message());
+}
+
+RawlogWriter::~RawlogWriter() {
+  std::error_code ignored;
+  std::filesystem::remove_all(temporary_images_, ignored);
+}
+
+void RawlogWriter::write(const mrpt::obs::CObservation& observation) {
+  mrpt::serialization::CArchiveStreamBase<std::ostream> archive(file_.stream());
+  try {
+    archive << observation;
+  } catch (const std::exception&) {
+    fail(log_, "no room left?");
+  }
+}
+
+void RawlogWriter::write(mrpt::obs::CObservationImage observation, std::string_view encoded,
+                         const std::string& extension) {
+  const std::string name = numbered(observation.sensorLabel, image_count_++, extension);
+  std::ofstream image(temporary_images_ / name, std::ios::binary);
+  image.write(encoded.data(), static_cast<std::streamsize>(encoded.size()));
+  image.close();
+  if (!image) fail(images_ / name, "no room left?");
+  observation.image.setExternalStorage(name);
+  write(observation);
+}
+
+void RawlogWriter::commit() {
+  std::error_code error;
+  std::filesystem::remove_all(images_, error);
+  if (!error) std::filesystem::rename(temporary_images_, images_, error);
+  if (error) fail(images_, error.message());
+  file_.commit();
+}
+
+}  // namespace vmcl
