@@ -1,8 +1,94 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "estimation_json.h"
+#include "ordered_parallel.h"
 #include "verbs.h"
+#include "vmcl/estimation/estimator.h"
 
 namespace vmcl {
+namespace {
 
-void addEstimateVerb(CLI::App&, int&) {}
+struct EstimateOptions {
+  EstimatorOptions estimator;
+  int threads = 1;
+  bool time = false;
+};
+
+struct Answer {
+  std::string line;
+  std::string complaint;  ///< empty when the problem was well formed
+};
+
+Answer answer(const std::string& line, std::size_t number, const EstimateOptions& options) {
+  std::string id;
+  try {
+    const IdentifiedProblem identified = parseProblem(line, id);
+    const auto start = std::chrono::steady_clock::now();
+    const PoseEstimate estimate = estimatePose(identified.problem, options.estimator);
+    const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
+    return {formatEstimate(id, estimate, options.time ? std::optional(elapsed.count()) : std::nullopt), ""};
+  } catch (const std::exception& error) {
+    return {formatError(id, error.what()), "line " + std::to_string(number) + ": " + error.what()};
+  }
+}
+
+int run(const EstimateOptions& options) {
+  options.estimator.check();
+  std::size_t problems = 0, bad = 0;
+  std::string line;
+  std::size_t number = 0;
+  const auto next = [&](std::pair<std::string, std::size_t>& job) {
+    while (std::getline(std::cin, line)) {
+      ++number;
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      job = {line, number};
+      return true;
+    }
+    return false;
+  };
+  const auto work = [&](const std::pair<std::string, std::size_t>& job) {
+    return answer(job.first, job.second, options);
+  };
+  const auto write = [&](const Answer& done) {
+    ++problems;
+    std::cout << done.line << '\n';
+    if (done.complaint.empty()) return;
+    ++bad;
+    std::cerr << "vmcl estimate: <stdin> " << done.complaint << '\n';
+  };
+  orderedParallel<std::pair<std::string, std::size_t>, Answer>(options.threads, next, work, write);
+  std::cout.flush();
+  if (!std::cout) throw std::runtime_error("<stdout>: cannot be written");
+  if (problems == 0) throw std::runtime_error("<stdin>: no problem, expected one JSON object a line");
+  return bad == 0 ? exit_done : bad < problems ? exit_some_input_bad : exit_failed;
+}
+
+}  // namespace
+
+void addEstimateVerb(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<EstimateOptions>();
+  CLI::App* verb = app.add_subcommand("estimate", "Estimate poses from matches: JSON Lines in, JSON Lines out");
+  static const std::map<std::string, Solver> solvers{
+      {"auto", Solver::automatic}, {"1p1dp", Solver::one_point_one_depth}, {"2dp", Solver::two_depth}};
+  verb->add_option("--solver", options->estimator.solver, "kind of samples drawn: auto, 1p1dp or 2dp")
+      ->transform(CLI::CheckedTransformer(solvers))
+      ->default_str("auto");
+  verb->add_option("--iterations", options->estimator.iterations, "samples drawn")->capture_default_str();
+  verb->add_option("--seed", options->estimator.seed, "same seed, same answers")->capture_default_str();
+  verb->add_option("--sigma-px", options->estimator.likelihood.sigma_px, "standard deviation of a pixel coordinate")
+      ->capture_default_str();
+  verb->add_option("--threads", options->threads, "problems worked on at once; the answers do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  verb->add_flag("--time", options->time, "add time_us to each answer: the one field that differs from run to run");
+  verb->footer(
+      "Example: vmcl estimate --seed 7 < problems.jsonl > answers.jsonl\n"
+      "A line is one problem: query_cameras, reference_cameras and matches; an answer has the same id.");
+  verb->callback([options, &exit_code] { exit_code = run(*options); });
+}
 
 }  // namespace vmcl

@@ -1,1 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/estimation/likelihood.h"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "prepared_matches.h"
+
+namespace vmcl {
+
+void LikelihoodOptions::check() const {
+  if (!std::isfinite(sigma_px) || !(sigma_px > 0))
+    throw std::invalid_argument("sigma_px must be positive and finite, not " + std::to_string(sigma_px));
+  if (!(inlier_prior > 0 && inlier_prior < 1))
+    throw std::invalid_argument("inlier_prior must be between 0 and 1, not " + std::to_string(inlier_prior));
+}
+
+PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodOptions& likelihood_options)
+    : options(likelihood_options),
+      query_cameras(problem.query_cameras),
+      reference_cameras(problem.reference_cameras),
+      match_count(static_cast<int>(problem.matches.size())) {
+  std::map<int, PointGroup> points;
+  std::map<std::pair<int, int>, RayGroup> rays;
+  for (int i = 0; i < match_count; ++i) {
+    const Match& match = problem.matches[static_cast<std::size_t>(i)];
+    if (match.point) {
+      PointGroup& group = points[match.query_camera];
+      group.query = match.query_camera;
+      group.match.push_back(i);
+      group.pixel.push_back(match.query_pixel);
+      group.point_in_map.push_back(match.point->point_in_map);
+      group.covariance.push_back(match.point->covariance);
+    } else {
+      RayGroup& group = rays[{match.query_camera, match.reference_camera}];
+      group.query = match.query_camera;
+      group.reference = match.reference_camera;
+      group.match.push_back(i);
+      group.query_pixel.push_back(match.query_pixel);
+      group.reference_pixel.push_back(match.reference_pixel);
+    }
+  }
+  for (auto& [key, group] : points) point_groups.push_back(std::move(group));
+  for (auto& [key, group] : rays) ray_groups.push_back(std::move(group));
+}
+
+PoseLikelihood::PoseLikelihood(const PoseProblem& problem, const LikelihoodOptions& options) {
+  problem.check();
+  options.check();
+  prepared_ = std::make_unique<Prepared>(problem, options);
+}
+PoseLikelihood::~PoseLikelihood() = default;
+PoseLikelihood::PoseLikelihood(PoseLikelihood&&) noexcept = default;
+PoseLikelihood& PoseLikelihood::operator=(PoseLikelihood&&) noexcept = default;
+
+int PoseLikelihood::matchCount() const { return prepared_->match_count; }
+
+double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
+  const Prepared& p = *prepared_;
+  const double prior = p.options.inlier_prior, outlier = 1 - prior;
+  // log(1 - e + e p / u) = log(1 - e) + log(1 + e p / (u (1 - e))): most matches add only the first part, and the
+  // product of the second runs several matches to a logarithm.
+  double sum = p.match_count * std::log(outlier);
+  const double odds = prior / outlier;
+  double product = 1;
+  const auto addRatio = [&](const auto&, const auto&, std::size_t, const auto& residual) {
+    product *= 1 + odds * residual.likelihood_ratio;
+    if (product < 1e200) return;
+    sum += std::log(product);
+    product = 1;
+  };
+  p.visit(map_from_robot, addRatio, addRatio);
+  return sum + std::log(product);
+}
+
+double PoseLikelihood::operator()(const PlanarTransform& map_from_robot) const {
+  Rigid3 rigid = Rigid3::Identity();
+  rigid.linear().topLeftCorner<2, 2>() << map_from_robot.c, -map_from_robot.s, map_from_robot.s, map_from_robot.c;
+  rigid.translation().head<2>() << map_from_robot.x, map_from_robot.y;
+  return (*this)(rigid);
+}
+
+void PoseLikelihood::evaluate(std::span<const PlanarTransform> map_from_robot,
+                              std::span<double> log_likelihoods) const {
+  if (map_from_robot.size() != log_likelihoods.size())
+    throw std::invalid_argument("PoseLikelihood::evaluate: " + std::to_string(map_from_robot.size()) + " poses but " +
+                                std::to_string(log_likelihoods.size()) + " results");
+  for (std::size_t i = 0; i < map_from_robot.size(); ++i) log_likelihoods[i] = (*this)(map_from_robot[i]);
+}
+
+}  // namespace vmcl

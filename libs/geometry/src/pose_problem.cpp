@@ -38,8 +38,7 @@ void checkPoint(const MapPoint& point, const std::string& name) {
 
 void PoseProblem::check() const {
   for (std::size_t i = 0; i < query_cameras.size(); ++i)
-    checkPlacedCamera(query_cameras[i].camera, query_cameras[i].robot_from_camera,
-                      "query camera " + std::to_string(i));
+    checkPlacedCamera(query_cameras[i].camera, query_cameras[i].robot_from_camera, "query camera " + std::to_string(i));
   for (std::size_t i = 0; i < reference_cameras.size(); ++i)
     checkPlacedCamera(reference_cameras[i].camera, reference_cameras[i].map_from_camera,
                       "reference camera " + std::to_string(i));

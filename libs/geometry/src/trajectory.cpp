@@ -33,8 +33,7 @@ std::optional<Rigid3> Trajectory::at(double time, double max_gap) const {
   const double share = (time - before->time) / (after->time - before->time);
   const Eigen::Quaterniond from(before->map_from_robot.linear()), to(after->map_from_robot.linear());
   Rigid3 pose = Rigid3::Identity();
-  pose.translation() =
-      (1 - share) * before->map_from_robot.translation() + share * after->map_from_robot.translation();
+  pose.translation() = (1 - share) * before->map_from_robot.translation() + share * after->map_from_robot.translation();
   pose.linear() = from.slerp(share, to).toRotationMatrix();
   return pose;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "vmcl/geometry/planar_transform.h"
 #include "vmcl/geometry/pose_problem.h"
 
 namespace vmcl {
@@ -19,13 +20,14 @@ struct LikelihoodOptions {
 /// How well a robot pose explains what the cameras saw: the log likelihood ratio of "this pose and noise" against
 /// "outliers anywhere",
 ///
-///     L(pose) = sum over matches of log(1 - e + e p(residual at pose) / u),
+///     L(pose) = sum over matches of log(1 - e + e p(residual at pose) / u).
 ///
-/// 0 when the pose explains nothing. The one score of sampling, refinement, mode weights and particles.
+/// The one score of sampling, refinement, mode weights and particles.
 /// - 2D-3D: p is the 2-D Gaussian of the reprojection residual, its covariance the pixel noise plus the point's own
-///   covariance carried into the image at that pose; u is one over the image area.
+///   covariance carried into the image at that pose, zero behind the camera; u is one over the image area.
 /// - 2D-2D: p is the 1-D Gaussian of the Sampson residual of the epipolar constraint, zero behind a camera; u is one
 ///   over the image extent across the epipolar line.
+/// A pose that explains nothing scores (number of matches) * log(1 - e).
 class PoseLikelihood {
  public:
   /// Prepares once what every pose needs. Throws std::invalid_argument as PoseProblem::check and options.check do.
@@ -34,11 +36,15 @@ class PoseLikelihood {
   PoseLikelihood(PoseLikelihood&&) noexcept;
   PoseLikelihood& operator=(PoseLikelihood&&) noexcept;
 
-  /// L at one pose of the robot in the map. Finite for finite poses.
-  double operator()(const PlanarPose& robot_in_map) const;
+  /// L at one pose of the robot. Finite for finite poses. Thread safe.
+  double operator()(const PlanarTransform& map_from_robot) const;
+  double operator()(const PlanarPose& map_from_robot) const { return (*this)(PlanarTransform(map_from_robot)); }
 
-  /// L at many poses; sizes must agree. Thread safe.
-  void evaluate(std::span<const PlanarPose> robot_in_map, std::span<double> log_likelihoods) const;
+  /// L with the robot tilted or lifted off the ground plane.
+  double operator()(const Rigid3& map_from_robot) const;
+
+  /// L at many poses. Throws std::invalid_argument when the sizes differ. Thread safe.
+  void evaluate(std::span<const PlanarTransform> map_from_robot, std::span<double> log_likelihoods) const;
 
   int matchCount() const;
 

@@ -25,9 +25,7 @@ struct PinholeCamera {
   }
 
   /// Viewing ray of a pixel with z = 1.
-  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const {
-    return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1};
-  }
+  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const { return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1}; }
 
   bool contains(const Eigen::Vector2d& pixel) const {
     return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < width - 0.5 && pixel.y() < height - 0.5;

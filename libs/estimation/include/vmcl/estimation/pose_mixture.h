@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <vector>
+
+#include "vmcl/geometry/planar_pose.h"
+
+namespace vmcl {
+
+/// Which minimal samples are drawn: one match with depth and one without (1P1DP), two with depth (2DP), or both kinds.
+enum class Solver { automatic, one_point_one_depth, two_depth };
+
+/// "auto", "1p1dp" or "2dp".
+std::string_view nameOf(Solver solver);
+
+/// One local maximum of the likelihood.
+struct PoseMode {
+  PlanarPose robot_in_map;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi), map frame: m, m, rad
+  double log_likelihood = 0;                             ///< L at the mode
+  double log_weight = 0;                                 ///< log of its share of the mixture, <= 0
+  std::vector<int> inliers;                              ///< matches more likely inlier than outlier, by index
+  Solver solver = Solver::automatic;                     ///< kind of the sample that led here
+};
+
+/// (x, y, phi) of b minus a, the angle wrapped.
+Eigen::Vector3d difference(const PlanarPose& b, const PlanarPose& a);
+
+/// Keeps each mode once (two are the same when one lies within 3 sigma of the other, whichever is the more certain),
+/// weighs each by its Laplace evidence, L + log sqrt(det(2 pi covariance)), sorts by weight, keeps the first
+/// `max_modes` and normalizes.
+std::vector<PoseMode> mergeModes(std::vector<PoseMode> modes, int max_modes);
+
+}  // namespace vmcl

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vmcl/estimation/likelihood.h"
+
+namespace vmcl {
+
+/// What the robot may do beside moving on the plane: standard deviations of Gaussian priors on roll and pitch (rad) and
+/// height (m). 0 holds the quantity at 0.
+struct SoftPlane {
+  double sigma_tilt = 0;
+  double sigma_height = 0;
+
+  /// Throws std::invalid_argument naming the bad key.
+  void check() const;
+};
+
+/// A local maximum of the likelihood (times the soft plane's prior).
+struct RefinedPose {
+  PlanarPose map_from_robot;
+  double roll = 0, pitch = 0, height = 0;                ///< R = Rz(phi) Ry(pitch) Rx(roll)
+  double objective = 0;                                  ///< L plus the log prior of roll, pitch and height
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi), the others marginalized
+  bool constrained = false;  ///< whether the matches fix all of x, y and phi; else the covariance means nothing
+
+  Rigid3 rigid() const;
+};
+
+/// Climbs the likelihood: Levenberg-Marquardt on the residuals of each match weighted by its chance of being an inlier
+/// (expectation maximization), each step accepted only if the true objective grows.
+class PoseRefiner {
+ public:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  /// The likelihood must outlive the refiner.
+  PoseRefiner(const PoseLikelihood& likelihood, const SoftPlane& plane);
+
+  RefinedPose refine(const PlanarTransform& start, int max_iterations = 20) const;
+
+  /// Gradient and Gauss-Newton information of the likelihood over (x, y, phi, roll, pitch, height), matches weighted by
+  /// their chance of being inliers. The gradient leaves out how the residuals' spread varies with the pose.
+  struct Linearization {
+    Vector6 gradient = Vector6::Zero();
+    Matrix6 information = Matrix6::Zero();
+  };
+  Linearization linearize(const RefinedPose& pose) const;
+
+  /// Matches more likely inlier than outlier, by increasing index.
+  std::vector<int> inliers(const RefinedPose& pose) const;
+
+ private:
+  double objective(const RefinedPose& pose) const;
+
+  const PoseLikelihood& likelihood_;
+  SoftPlane plane_;
+};
+
+}  // namespace vmcl
