@@ -11,7 +11,7 @@ packages=(
   libgl1-mesa-dri # renders without a GPU, for the simulator
   gnuplot-nox
   # the rest serves the tests and the demo
-  libgtest-dev python3
+  libgtest-dev libgmock-dev python3
   mrpt-apps mrpt-common # the stock pf-localization and its laser demo
 )
 
