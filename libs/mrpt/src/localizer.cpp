@@ -91,7 +91,7 @@ CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode
         if (!relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
         const PoseEstimate estimate = relocalizing->relocalize(*observation);
         modes.insert(modes.end(), estimate.modes.begin(), estimate.modes.end());
-        inliers += static_cast<int>(estimate.inliers.size());
+        if (estimate.found()) inliers += static_cast<int>(estimate.modes.front().inliers.size());
       }
       used.insert(observation);
     } catch (const std::exception& error) {
