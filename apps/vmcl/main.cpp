@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "verbs.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Visual Monte Carlo localization of a wheeled robot on flat ground.", "vmcl"};
-  app.require_subcommand(1);
   app.set_version_flag("--version", VMCL_VERSION);
   app.footer("Each verb explains itself: vmcl VERB --help");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("vmcl: ") + error.what() + " (see vmcl --help)\n";
+  });
   int exit_code = vmcl::exit_done;
   vmcl::addSimulateVerb(app, exit_code);
   vmcl::addImportVerb(app, exit_code);
@@ -18,6 +21,7 @@ int main(int argc, char** argv) {
   vmcl::addEstimateVerb(app, exit_code);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) throw CLI::RequiredError("A verb");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? vmcl::exit_done : vmcl::exit_failed;
   } catch (const std::exception& error) {
