@@ -18,7 +18,8 @@
 namespace vmcl {
 namespace {
 
-constexpr double margin = 1.0;  // s of poses kept before the first and after the last image
+constexpr double margin = 1.0;     // s of poses kept before the first and after the last image
+constexpr double max_time = 1e10;  // s, the year 2286; a rawlog's clock overflows later
 
 struct ListedImage {
   double time;
@@ -31,6 +32,7 @@ ListedImage parseImageLine(const std::string& line, const std::filesystem::path&
   ListedImage image{0, {}, std::move(place)};
   std::string name;
   if (!(words >> image.time >> name)) throw std::runtime_error(image.place + ": expected `time file`");
+  if (!(image.time >= 0 && image.time <= max_time)) throw std::runtime_error(image.place + ": time is out of range");
   const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
   if (relative.is_absolute() || *relative.begin() == "..")
     throw std::runtime_error(image.place + ": " + name + " lies outside of the data set");
