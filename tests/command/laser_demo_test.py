@@ -18,7 +18,7 @@ POSE = r'\(([-\d.]+),([-\d.]+),([-\d.]+)deg\)'
 @unittest.skipUnless(STOCK and INI.exists(), 'stock pf-localization and its demo are not installed')
 class LaserDemoTest(CommandTest):
     def stock_end(self):
-        """Where stock ends; its start is random. It needs a display unless told otherwise, and paths from its folder."""
+        """Where stock ends. It starts at random, wants a display unless told otherwise, looks for files here."""
         text = INI.read_text()
         text = re.sub(r'(?m)^SHOW_PROGRESS_3D_REAL_TIME.*', 'SHOW_PROGRESS_3D_REAL_TIME=false', text)
         text = re.sub(r'(?m)^logOutput_dir=.*', 'logOutput_dir=', text)

@@ -7,7 +7,9 @@
 #include <mrpt/system/string_utils.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -37,6 +39,22 @@ CConfigFileMemory readIni(const fs::path& file) {
   ini.setContent(std::string(std::istreambuf_iterator<char>(in), {}));
   if (!ini.sectionExists("LocalizationExperiment")) throw std::runtime_error("has no section [LocalizationExperiment]");
   return ini;
+}
+
+/// MRPT's own sections read nan and inf as numbers like any other.
+void refuseNonFiniteValues(const CConfigFileMemory& ini) {
+  std::vector<std::string> sections, keys;
+  ini.getAllSections(sections);
+  for (const std::string& section : sections) {
+    ini.getAllKeys(section, keys);
+    for (const std::string& key : keys) {
+      const std::string word = ini.read_string(section, key, "");
+      char* end = nullptr;
+      const double number = std::strtod(word.c_str(), &end);
+      if (end != word.c_str() && *end == '\0' && !std::isfinite(number))
+        throw std::invalid_argument("[" + section + "] " + key + ": '" + word + "' is not a finite number");
+    }
+  }
 }
 
 void refuseUnknownMaps(const CConfigFileMemory& ini) {
@@ -94,8 +112,10 @@ void placeMapFiles(CConfigFileMemory& ini, const fs::path& ini_file, std::vector
 int firstCount(IniSection& section, const std::string& key) {
   std::string counts;
   section.read(key, counts);
+  std::istringstream words(counts);
   int first = 0;
-  if (!(std::istringstream(counts) >> first)) section.fail(key, "'" + counts + "' is not a number of particles");
+  if (!(words >> first) || !(words.eof() || std::isspace(words.peek())))
+    section.fail(key, "'" + counts + "' is not a number of particles");
   if (first < 1 || first > max_particles)
     section.fail(key, std::to_string(first) + " is not in [1, " + std::to_string(max_particles) + "]");
   return first;
@@ -206,6 +226,7 @@ LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::v
   CConfigFileMemory ini = readIni(ini_file);
   LocalizationConfig config;
   config.rawlog_file = rawlog_file;
+  refuseNonFiniteValues(ini);
   readExperiment(ini, ini_file, config);
   readStart(ini, config);
   readMotionModel(ini, config);
