@@ -63,6 +63,16 @@ std::vector<double> YamlMap::numbers(const std::string& key, std::size_t size) {
   return values;
 }
 
+std::vector<std::array<double, 2>> YamlMap::points(const std::string& key) {
+  const YAML::Node node = required(key);
+  std::vector<std::array<double, 2>> points;
+  for (const YAML::Node& item : node) {
+    if (!item.IsSequence() || item.size() != 2) fail(key, "is not a list of [x, y]");
+    points.push_back({as<double>(key, item[0]), as<double>(key, item[1])});
+  }
+  return points;
+}
+
 std::vector<std::string> YamlMap::keys() const {
   std::vector<std::string> keys;
   for (const auto& item : node_) keys.push_back(item.first.as<std::string>());

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -37,6 +38,9 @@ class YamlMap {
 
   /// A list of `size` finite numbers.
   std::vector<double> numbers(const std::string& key, std::size_t size);
+
+  /// A list of points in the plane.
+  std::vector<std::array<double, 2>> points(const std::string& key);
 
   /// The keys of this mapping, for one whose keys are names.
   std::vector<std::string> keys() const;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "materials.h"
+
+#include <map>
+
+namespace vmcl {
+namespace {
+
+using Painter = void (*)(const Canvas&, const cv::Scalar&);
+
+const std::map<std::string, Painter>& painters() {
+  static const std::map<std::string, Painter> painters{
+      {"plain", paintPlain},   {"plaster", paintPlaster},    {"bricks", paintBricks}, {"wallpaper", paintWallpaper},
+      {"planks", paintPlanks}, {"tiles", paintTiles},        {"carpet", paintCarpet}, {"ceiling", paintCeiling},
+      {"wood", paintWood},     {"drawers", paintDrawers},    {"books", paintBooks},   {"fabric", paintFabric},
+      {"fridge", paintFridge}, {"cardboard", paintCardboard}};
+  return painters;
+}
+
+}  // namespace
+
+bool isMaterial(const std::string& name) { return painters().contains(name); }
+
+std::string materialNames() {
+  std::string names;
+  for (const auto& [name, painter] : painters()) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+void paintMaterial(const std::string& name, const Canvas& canvas, const cv::Scalar& color) {
+  painters().at(name)(canvas, color);
+}
+
+}  // namespace vmcl

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "canvas.h"
+
+namespace vmcl {
+
+bool isMaterial(const std::string& name);
+
+/// All names, for messages.
+std::string materialNames();
+
+/// Covers the canvas. Throws std::out_of_range for a name that is not a material.
+void paintMaterial(const std::string& name, const Canvas& canvas, const cv::Scalar& color);
+
+// Walls: wall_materials.cpp
+void paintPlain(const Canvas& canvas, const cv::Scalar& color);
+void paintPlaster(const Canvas& canvas, const cv::Scalar& color);
+void paintBricks(const Canvas& canvas, const cv::Scalar& color);
+void paintWallpaper(const Canvas& canvas, const cv::Scalar& color);
+
+// Floors and ceilings: floor_materials.cpp
+void paintPlanks(const Canvas& canvas, const cv::Scalar& color);
+void paintTiles(const Canvas& canvas, const cv::Scalar& color);
+void paintCarpet(const Canvas& canvas, const cv::Scalar& color);
+void paintCeiling(const Canvas& canvas, const cv::Scalar& color);
+
+// Furniture: furniture_materials.cpp
+void paintWood(const Canvas& canvas, const cv::Scalar& color);
+void paintDrawers(const Canvas& canvas, const cv::Scalar& color);
+void paintBooks(const Canvas& canvas, const cv::Scalar& color);
+void paintFabric(const Canvas& canvas, const cv::Scalar& color);
+void paintFridge(const Canvas& canvas, const cv::Scalar& color);
+void paintCardboard(const Canvas& canvas, const cv::Scalar& color);
+
+}  // namespace vmcl

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulated_sensors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmcl {
+namespace {
+
+enum Stream : uint64_t { odometry_stream = 1, laser_stream, camera_stream };
+
+Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
+  Rigid3 rigid = Rigid3::Identity();
+  rigid.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
+  return rigid;
+}
+
+void addNoise(cv::Mat& image, double sigma, Random& random) {
+  for (auto pixel = image.begin<cv::Vec3b>(); pixel != image.end<cv::Vec3b>(); ++pixel) {
+    const int noise = static_cast<int>(std::lround(sigma * random.normal()));
+    for (uchar& channel : (*pixel).val) channel = static_cast<uchar>(std::clamp(channel + noise, 0, 255));
+  }
+}
+
+}  // namespace
+
+SimulatedSensors::SimulatedSensors(const SimulationSetup& setup, uint64_t seed)
+    : setup_(setup),
+      odometry_(setup.odometry.noise, Random(seed, odometry_stream)),
+      laser_random_(seed, laser_stream),
+      camera_random_(seed, camera_stream),
+      renderer_(setup.scene, setup.session.light, setup.texture_seed, setup.camera.pinhole) {}
+
+mrpt::obs::CObservationOdometry SimulatedSensors::odometry(double time, const PlanarPose& map_from_robot) {
+  const PlanarPose reading = odometry_.read(map_from_robot);
+  mrpt::obs::CObservationOdometry observation;
+  observation.sensorLabel = "odometry";
+  observation.timestamp = mrpt::Clock::fromDouble(time);
+  observation.odometry = mrpt::poses::CPose2D(reading.x, reading.y, reading.phi);
+  return observation;
+}
+
+mrpt::obs::CObservation2DRangeScan SimulatedSensors::laser(double time, const PlanarPose& map_from_robot) {
+  const LaserModel& model = setup_.laser.model;
+  const mrpt::poses::CPose3D& mount = setup_.laser.robot_from_laser;
+  const PlanarPose map_from_laser = map_from_robot * PlanarPose{mount.x(), mount.y(), mount.yaw()};
+  const auto ranges = scan(setup_.scene.solids, model, map_from_laser, mount.z(), laser_random_);
+  mrpt::obs::CObservation2DRangeScan observation;
+  observation.sensorLabel = "laser";
+  observation.timestamp = mrpt::Clock::fromDouble(time);
+  observation.sensorPose = mount;
+  observation.aperture = static_cast<float>(model.aperture);
+  observation.rightToLeft = true;
+  observation.maxRange = static_cast<float>(model.max_range);
+  observation.stdError = static_cast<float>(model.sigma);
+  observation.resizeScan(ranges.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    observation.setScanRange(i, static_cast<float>(ranges[i].value_or(model.max_range)));
+    observation.setScanRangeValidity(i, ranges[i].has_value());
+  }
+  return observation;
+}
+
+mrpt::obs::CObservationImage SimulatedSensors::camera(double time) const {
+  const PinholeCamera& pinhole = setup_.camera.pinhole;
+  mrpt::obs::CObservationImage observation;
+  observation.sensorLabel = "camera";
+  observation.timestamp = mrpt::Clock::fromDouble(time);
+  observation.cameraPose = setup_.camera.robot_from_camera;
+  observation.cameraParams.ncols = static_cast<uint32_t>(pinhole.width);
+  observation.cameraParams.nrows = static_cast<uint32_t>(pinhole.height);
+  observation.cameraParams.setIntrinsicParamsFromValues(pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy);
+  return observation;
+}
+
+cv::Mat SimulatedSensors::image(const PlanarPose& map_from_robot) {
+  cv::Mat image = renderer_.render(toRigid3(map_from_robot) * rigidOf(setup_.camera.robot_from_camera));
+  addNoise(image, setup_.camera.sigma_grey, camera_random_);
+  return image;
+}
+
+}  // namespace vmcl

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "wheel_odometry.h"
+
+namespace vmcl {
+
+PlanarPose WheelOdometry::read(const PlanarPose& map_from_robot) {
+  if (started_) {
+    PlanarPose motion = inverse(map_from_robot_) * map_from_robot;
+    const double way = std::hypot(motion.x, motion.y), turn = std::abs(motion.phi);
+    const double way_error = std::sqrt(noise_.alpha3 * way + noise_.alpha4 * turn) * random_.normal();
+    const double turn_error = std::sqrt(noise_.alpha1 * turn + noise_.alpha2 * way) * random_.normal();
+    motion.x += way_error;
+    motion.phi = wrapAngle(motion.phi + turn_error);
+    odom_from_robot_ = odom_from_robot_ * motion;
+  }
+  started_ = true;
+  map_from_robot_ = map_from_robot;
+  return odom_from_robot_;
+}
+
+}  // namespace vmcl
