@@ -1,8 +1,135 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <memory>
+#include <numbers>
+
+#include "posed_images.h"
+#include "progress_bar.h"
 #include "verbs.h"
+#include "vmcl/mapping/map_file.h"
 
 namespace vmcl {
+namespace {
 
-void addMapVerb(CLI::App&, int&) {}
+constexpr double degree = std::numbers::pi / 180;
+
+struct MapArguments {
+  std::string input;
+  std::string output;
+  std::string trajectory;
+  std::string info;
+  std::string features = "sift";
+  double keyframe_rotation_deg = MapBuilderOptions().keyframe_rotation / degree;
+  double sigma_heading_deg = MapBuilderOptions().sigma_heading / degree;
+  double sigma_mount_tilt_deg = MapBuilderOptions().sigma_mount_tilt / degree;
+  MapBuilderOptions options;
+
+  MapBuilderOptions builderOptions() const {
+    MapBuilderOptions complete = options;
+    complete.features.kind = featureKindFromName(features);
+    complete.keyframe_rotation = keyframe_rotation_deg * degree;
+    complete.sigma_heading = sigma_heading_deg * degree;
+    complete.sigma_mount_tilt = sigma_mount_tilt_deg * degree;
+    return complete;
+  }
+
+  bool readsSimpleMap() const { return input.ends_with(".simplemap") || input.ends_with(".simplemap.gz"); }
+};
+
+void print(const MapBuildReport& report, const KeyframeMap& map, const PosedImages& images) {
+  std::cout << images.images() << " images, " << images.imagesWithoutPose() << " of them without a pose; "
+            << report.keyframes << " keyframes, " << report.features << " features\n"
+            << report.landmarks << " landmarks, seen " << report.mean_observations
+            << " times each, median reprojection error " << report.median_reprojection_px << " px\n";
+  for (std::size_t i = 0; i < map.cameras.size(); ++i) {
+    const Eigen::Vector3d turn_deg = report.mount_correction[i] / degree;
+    const Eigen::Vector3d& shift = report.mount_shift[i];
+    std::cout << "camera '" << map.cameras[i].label << "': mount turned by roll " << turn_deg.x() << ", pitch "
+              << turn_deg.y() << ", yaw " << turn_deg.z() << " deg, shifted by x " << shift.x() << ", y " << shift.y()
+              << " m\n";
+  }
+}
+
+int runInfo(const std::string& file) {
+  const KeyframeMap map = loadMap(file);
+  std::cout << file << ": " << map.keyframes.size() << " keyframes, " << map.landmarks.size() << " landmarks, "
+            << nameOf(map.feature_options.kind) << " features, " << map.vocabulary.words().rows()
+            << " words of place recognition\n";
+  for (const MapCamera& camera : map.cameras) {
+    const PinholeCamera& pinhole = camera.calibration.pinhole;
+    std::cout << "camera '" << camera.label << "': " << pinhole.width << "x" << pinhole.height << ", fx " << pinhole.fx
+              << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy << ", mounted at "
+              << camera.robot_from_camera.translation().transpose() << " m, " << camera.mask_rows_from_top
+              << " rows masked\n";
+  }
+  return exit_done;
+}
+
+int runMap(const MapArguments& arguments) {
+  if (!arguments.info.empty()) return runInfo(arguments.info);
+  if (arguments.input.empty()) throw std::runtime_error("map: INPUT is required");
+  if (arguments.output.empty()) throw std::runtime_error("map: --output is required");
+  if (arguments.trajectory.empty() != arguments.readsSimpleMap())
+    throw std::runtime_error(arguments.readsSimpleMap() ? "map: a simplemap has its own poses: leave --trajectory out"
+                                                        : "map: the poses of a rawlog are needed: give --trajectory");
+  ProgressBar bar;
+  MapBuilder builder({}, arguments.builderOptions());
+  PosedImages images(builder);
+  const auto reading = [&](double share) { bar.update("reading", share); };
+  if (arguments.readsSimpleMap())
+    images.readSimpleMap(arguments.input, reading);
+  else
+    images.readRawlog(arguments.input, readTumTrajectory(arguments.trajectory), reading);
+  for (const std::string& problem : images.problems()) std::cerr << "vmcl map: " << problem << '\n';
+  if (images.images() == 0) throw std::runtime_error(arguments.input + ": no camera images");
+  if (builder.keyframeCount() == 0) throw std::runtime_error(arguments.input + ": no image has a pose");
+  const auto [map, report] = builder.build([&](std::string_view stage, double share) { bar.update(stage, share); });
+  saveMap(arguments.output, map);
+  print(report, map, images);
+  return images.problems().empty() ? exit_done : exit_some_input_bad;
+}
+
+void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
+  MapBuilderOptions& options = arguments.options;
+  verb.add_option("--features", arguments.features, "orb or sift")->capture_default_str();
+  verb.add_option("--max-features", options.features.max_features, "strongest features kept of an image")
+      ->capture_default_str();
+  verb.add_option("--mask-rows-from-top", options.features.mask_rows_from_top,
+                  "rows of the image that show the robot itself")
+      ->capture_default_str();
+  verb.add_option("--keyframe-distance", options.keyframe_distance, "a new keyframe after this way (m)")
+      ->capture_default_str();
+  verb.add_option("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn")->capture_default_str();
+  verb.add_option("--sigma-position", options.sigma_position, "standard deviation of the given positions (m)")
+      ->capture_default_str();
+  verb.add_option("--sigma-heading-deg", arguments.sigma_heading_deg, "and headings")->capture_default_str();
+  verb.add_option("--sigma-mount-tilt-deg", arguments.sigma_mount_tilt_deg,
+                  "standard deviation of the given mount's roll, pitch and yaw; 0: exact")
+      ->capture_default_str();
+  verb.add_option("--sigma-mount-shift", options.sigma_mount_shift,
+                  "standard deviation of the given mount's x and y (m); 0: exact")
+      ->capture_default_str();
+  verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")->capture_default_str();
+}
+
+}  // namespace
+
+void addMapVerb(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "map",
+      "Make a map of keyframes and landmarks from posed images: a rawlog and a trajectory, or a simplemap.\n"
+      "Poses are taken as on flat ground. They and the camera mounts are adjusted within their standard deviations.");
+  const auto arguments = std::make_shared<MapArguments>();
+  verb->add_option("INPUT", arguments->input, "a .rawlog, or a .simplemap (may be gzipped)");
+  verb->add_option("-o,--output", arguments->output, "the .vmap to write");
+  verb->add_option("--trajectory", arguments->trajectory, "poses of the robot for a rawlog, TUM format");
+  verb->add_option("--info", arguments->info, "only say what this .vmap holds");
+  addBuilderOptions(*verb, *arguments);
+  verb->footer(
+      "Examples:\n"
+      "  vmcl map drive.rawlog --trajectory drive.groundtruth.tum -o drive.vmap\n"
+      "  vmcl map --info drive.vmap");
+  verb->callback([arguments, &exit_code] { exit_code = runMap(*arguments); });
+}
 
 }  // namespace vmcl

@@ -14,13 +14,14 @@ namespace vmcl {
 struct MapBuilderOptions {
   FeatureOptions features;
   MatchingOptions matching;
-  double keyframe_distance = 0.10;   ///< a new keyframe after this way (m)
-  double keyframe_rotation = 0.09;   ///< or this turn (rad)
-  double sigma_px = 1.0;             ///< standard deviation of a feature's position
-  double sigma_position = 0.02;      ///< prior of the given robot positions (m)
-  double sigma_heading = 0.01;       ///< prior of the given robot headings (rad)
-  double sigma_mount_tilt = 0.05;    ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
-  int words = 64;                    ///< vocabulary of place recognition
+  double keyframe_distance = 0.10;  ///< a new keyframe after this way (m)
+  double keyframe_rotation = 0.09;  ///< or this turn (rad)
+  double sigma_px = 1.0;            ///< standard deviation of a feature's position
+  double sigma_position = 0.02;     ///< prior of the given robot positions (m)
+  double sigma_heading = 0.01;      ///< prior of the given robot headings (rad)
+  double sigma_mount_tilt = 0.05;   ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
+  double sigma_mount_shift = 0.02;  ///< prior of the given mount's x and y (m); 0: exact
+  int words = 64;                   ///< vocabulary of place recognition
   uint64_t seed = 1;
 
   /// Throws std::invalid_argument naming the bad key.
@@ -33,9 +34,10 @@ struct MapBuildReport {
   int keyframes = 0;
   int features = 0;
   int landmarks = 0;
-  double mean_observations = 0;       ///< per landmark
-  double median_reprojection_px = 0;  ///< after adjustment
+  double mean_observations = 0;                   ///< per landmark
+  double median_reprojection_px = 0;              ///< after adjustment
   std::vector<Eigen::Vector3d> mount_correction;  ///< per camera: roll, pitch, yaw turned about the robot axes (rad)
+  std::vector<Eigen::Vector3d> mount_shift;       ///< per camera: along the robot axes (m)
 };
 
 /// Called with the stage's name and the share done in [0, 1].
@@ -46,17 +48,25 @@ using BuildProgress = std::function<void(std::string_view stage, double share)>;
 /// vocabulary and place descriptors. Deterministic.
 class MapBuilder {
  public:
+  /// Throws std::invalid_argument for bad options or a bad camera.
   MapBuilder(std::vector<MapCamera> cameras, const MapBuilderOptions& options);
   ~MapBuilder();
   MapBuilder(MapBuilder&&) noexcept;
+
+  /// A further camera; returns its index. Its mask is at least that of the options. Throws std::invalid_argument for a
+  /// bad camera.
+  int addCamera(MapCamera camera);
 
   /// Offers an image taken at `time` (s) by camera `camera` with the robot at map_from_robot. Returns whether it was
   /// taken as a keyframe. Throws std::invalid_argument for a bad image size, index or pose.
   bool add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image);
 
+  /// The same with features found elsewhere. Throws std::invalid_argument for features of another kind, too.
+  bool add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features);
+
   int keyframeCount() const;
 
-  /// Consumes the keyframes. Throws std::runtime_error when there are none.
+  /// Consumes the keyframes. Throws std::runtime_error when there are none, or none with features.
   std::pair<KeyframeMap, MapBuildReport> build(const BuildProgress& progress = {});
 
  private:

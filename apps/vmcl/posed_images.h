@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "vmcl/geometry/trajectory.h"
+#include "vmcl/mapping/map_builder.h"
+
+namespace vmcl {
+
+using ReadProgress = std::function<void(double share)>;
+
+/// Feeds the camera images of a log to a map builder. One sensor label is one camera of the map.
+class PosedImages {
+ public:
+  explicit PosedImages(MapBuilder& builder) : builder_(builder) {}
+
+  /// Images of a rawlog with the poses of a trajectory. Images before, after or in a gap of it are counted and skipped.
+  void readRawlog(const std::filesystem::path& file, const Trajectory& trajectory, const ReadProgress& progress);
+
+  /// Images of a CSimpleMap with its poses. Throws std::runtime_error naming the file when it is none.
+  void readSimpleMap(const std::filesystem::path& file, const ReadProgress& progress);
+
+  int images() const { return images_; }
+  int imagesWithoutPose() const { return images_without_pose_; }
+
+  /// What could not be used, a line each.
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  void offer(const mrpt::obs::CObservation& observation, const std::function<std::optional<Rigid3>(double)>& pose_at);
+  int cameraOf(const struct CameraObservation& seen);
+
+  MapBuilder& builder_;
+  std::map<std::string, std::pair<int, PinholeCamera>> camera_of_label_;
+  int images_ = 0;
+  int images_without_pose_ = 0;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace vmcl

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "reconstruction.h"
+
+namespace vmcl {
+
+/// Standard deviations of what the adjustment weighs; below a millionth of a unit counts as a millionth.
+struct AdjustmentNoise {
+  double pixel = 1;
+  double position = 0.02;        ///< of the given robot poses (m)
+  double heading = 0.01;         ///< of the given robot poses (rad)
+  double mount_rotation = 0.05;  ///< of the given mounts' roll, pitch and yaw (rad)
+  double mount_shift = 0.02;     ///< of the given mounts' x and y (m)
+
+  /// 1 / sigma of the planar pose's (x, y, phi).
+  Eigen::Vector3d poseWeights() const;
+  /// 1 / sigma of each angle of a mount.
+  Eigen::Vector3d mountRotationWeights() const;
+  /// 1 / sigma of a mount's (x, y, z).
+  Eigen::Vector3d mountShiftWeights() const;
+};
+
+/// Bundle adjustment: moves points, poses and mount corrections to the least robust sum of squared reprojection errors
+/// and deviations from what was given, each in standard deviations. Deterministic.
+void adjust(Reconstruction& scene, const AdjustmentNoise& noise);
+
+}  // namespace vmcl

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mapping/map_file.h"
+
+#include <zlib.h>
+
+#include <fstream>
+
+#include "byte_stream.h"
+#include "vmcl/geometry/atomic_file.h"
+
+// Layout, little endian; a count is u32, a pose the upper three rows of its matrix by columns:
+//   magic[8]  version u32  content size u64  CRC-32 of the content u32  content
+// content:
+//   features    kind u8, max_features i32, mask_rows_from_top i32
+//   cameras     count; each: label (count, bytes), width i32, height i32, fx fy cx cy f64, distortion f64[5],
+//               pose f64[12], mask_rows_from_top i32
+//   keyframes   count; each: time f64, camera i32, pose f64[12], feature count, descriptor bytes (count),
+//               pixels f32[n][2], sizes f32[n], responses f32[n], descriptors u8[n][bytes], landmarks i32[n]
+//   landmarks   count; each: point f64[3], lower triangle of the covariance f64[6], observation count i32
+//   vocabulary  rows, columns (counts), f32 by columns
+//   places      rows, columns (counts), f32 by columns
+
+namespace vmcl {
+namespace {
+
+constexpr std::string_view magic = "VMCLMAP\n";
+constexpr std::size_t pose_bytes = 12 * sizeof(double);
+constexpr std::size_t camera_bytes = 16 + 9 * sizeof(double) + pose_bytes;  // at least
+constexpr std::size_t keyframe_bytes = 20 + pose_bytes;                     // at least
+constexpr std::size_t feature_bytes = 20;                                   // without the descriptor
+constexpr std::size_t landmark_bytes = 9 * sizeof(double) + 4;
+
+uint32_t checksum(std::string_view bytes) {
+  return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+FeatureKind toFeatureKind(uint8_t stored) {
+  const auto kind = static_cast<FeatureKind>(stored);
+  if (kind != FeatureKind::orb && kind != FeatureKind::sift)
+    throw std::runtime_error("unknown feature kind " + std::to_string(stored));
+  return kind;
+}
+
+void putPose(ByteWriter& out, const Rigid3& pose) {
+  const Eigen::Matrix<double, 3, 4> rows = pose.matrix().topRows<3>();
+  out.putAll(std::span<const double>(rows.data(), 12));
+}
+
+Rigid3 getPose(ByteReader& in) {
+  Eigen::Matrix<double, 3, 4> rows;
+  in.getAll(std::span<double>(rows.data(), 12));
+  Rigid3 pose = Rigid3::Identity();
+  pose.matrix().topRows<3>() = rows;
+  return pose;
+}
+
+void putMatrix(ByteWriter& out, const Eigen::MatrixXf& matrix) {
+  out.putCount(static_cast<std::size_t>(matrix.rows()));
+  out.putCount(static_cast<std::size_t>(matrix.cols()));
+  out.putAll(std::span<const float>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+Eigen::MatrixXf getMatrix(ByteReader& in) {
+  const uint64_t rows = in.get<uint32_t>(), columns = in.get<uint32_t>();
+  if (columns > 0 && rows > in.remaining().size() / sizeof(float) / columns) throw std::runtime_error("cut off");
+  Eigen::MatrixXf matrix(rows, columns);
+  in.getAll(std::span<float>(matrix.data(), rows * columns));
+  return matrix;
+}
+
+void putCamera(ByteWriter& out, const MapCamera& camera) {
+  out.putCount(camera.label.size());
+  out.putAll(std::span<const char>(camera.label));
+  const PinholeCamera& pinhole = camera.calibration.pinhole;
+  for (int size : {pinhole.width, pinhole.height}) out.put<int32_t>(size);
+  for (double value : {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}) out.put(value);
+  out.putAll(std::span<const double>(camera.calibration.distortion));
+  putPose(out, camera.robot_from_camera);
+  out.put<int32_t>(camera.mask_rows_from_top);
+}
+
+MapCamera getCamera(ByteReader& in) {
+  MapCamera camera;
+  camera.label.resize(in.getCount(1));
+  in.getAll(std::span<char>(camera.label));
+  PinholeCamera& pinhole = camera.calibration.pinhole;
+  for (int* size : {&pinhole.width, &pinhole.height}) *size = in.get<int32_t>();
+  for (double* value : {&pinhole.fx, &pinhole.fy, &pinhole.cx, &pinhole.cy}) *value = in.get<double>();
+  in.getAll(std::span<double>(camera.calibration.distortion));
+  camera.robot_from_camera = getPose(in);
+  camera.mask_rows_from_top = in.get<int32_t>();
+  return camera;
+}
+
+void putKeyframe(ByteWriter& out, const Keyframe& keyframe) {
+  out.put(keyframe.time);
+  out.put<int32_t>(keyframe.camera);
+  putPose(out, keyframe.map_from_robot);
+  const FeatureSet& features = keyframe.features;
+  out.putCount(features.pixels.size());
+  out.putCount(static_cast<std::size_t>(features.descriptors.cols()));
+  for (const Eigen::Vector2f& pixel : features.pixels) out.putAll(std::span<const float>(pixel.data(), 2));
+  out.putAll(std::span<const float>(features.sizes));
+  out.putAll(std::span<const float>(features.responses));
+  out.putAll(
+      std::span<const uint8_t>(features.descriptors.data(), static_cast<std::size_t>(features.descriptors.size())));
+  out.putAll(std::span<const int32_t>(keyframe.landmark_of_feature));
+}
+
+Keyframe getKeyframe(ByteReader& in, FeatureKind kind) {
+  Keyframe keyframe;
+  keyframe.time = in.get<double>();
+  keyframe.camera = in.get<int32_t>();
+  keyframe.map_from_robot = getPose(in);
+  const std::size_t count = in.getCount(feature_bytes);
+  const std::size_t descriptor_bytes = in.get<uint32_t>();
+  in.require(count * (feature_bytes + descriptor_bytes));
+  FeatureSet& features = keyframe.features;
+  features.kind = kind;
+  features.pixels.resize(count);
+  features.sizes.resize(count);
+  features.responses.resize(count);
+  features.descriptors.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(descriptor_bytes));
+  keyframe.landmark_of_feature.resize(count);
+  for (Eigen::Vector2f& pixel : features.pixels) in.getAll(std::span<float>(pixel.data(), 2));
+  in.getAll(std::span<float>(features.sizes));
+  in.getAll(std::span<float>(features.responses));
+  in.getAll(std::span<uint8_t>(features.descriptors.data(), count * descriptor_bytes));
+  in.getAll(std::span<int32_t>(keyframe.landmark_of_feature));
+  return keyframe;
+}
+
+void putLandmark(ByteWriter& out, const Landmark& landmark) {
+  out.putAll(std::span<const double>(landmark.point_in_map.data(), 3));
+  for (int column = 0; column < 3; ++column)
+    for (int row = column; row < 3; ++row) out.put(landmark.covariance(row, column));
+  out.put<int32_t>(landmark.observation_count);
+}
+
+Landmark getLandmark(ByteReader& in) {
+  Landmark landmark;
+  in.getAll(std::span<double>(landmark.point_in_map.data(), 3));
+  for (int column = 0; column < 3; ++column)
+    for (int row = column; row < 3; ++row)
+      landmark.covariance(row, column) = landmark.covariance(column, row) = in.get<double>();
+  landmark.observation_count = in.get<int32_t>();
+  return landmark;
+}
+
+std::string encodeContent(const KeyframeMap& map) {
+  ByteWriter out;
+  out.put(static_cast<uint8_t>(map.feature_options.kind));
+  out.put<int32_t>(map.feature_options.max_features);
+  out.put<int32_t>(map.feature_options.mask_rows_from_top);
+  out.putCount(map.cameras.size());
+  for (const MapCamera& camera : map.cameras) putCamera(out, camera);
+  out.putCount(map.keyframes.size());
+  for (const Keyframe& keyframe : map.keyframes) putKeyframe(out, keyframe);
+  out.putCount(map.landmarks.size());
+  for (const Landmark& landmark : map.landmarks) putLandmark(out, landmark);
+  putMatrix(out, map.vocabulary.words());
+  putMatrix(out, map.place_descriptors);
+  return out.take();
+}
+
+KeyframeMap decodeContent(std::string_view content) {
+  ByteReader in(content);
+  KeyframeMap map;
+  map.feature_options.kind = toFeatureKind(in.get<uint8_t>());
+  map.feature_options.max_features = in.get<int32_t>();
+  map.feature_options.mask_rows_from_top = in.get<int32_t>();
+  map.cameras.resize(in.getCount(camera_bytes));
+  for (MapCamera& camera : map.cameras) camera = getCamera(in);
+  map.keyframes.resize(in.getCount(keyframe_bytes));
+  for (Keyframe& keyframe : map.keyframes) keyframe = getKeyframe(in, map.feature_options.kind);
+  map.landmarks.resize(in.getCount(landmark_bytes));
+  for (Landmark& landmark : map.landmarks) landmark = getLandmark(in);
+  if (Eigen::MatrixXf words = getMatrix(in); words.size() > 0)
+    map.vocabulary = VladVocabulary(map.feature_options.kind, std::move(words));
+  map.place_descriptors = getMatrix(in);
+  if (!in.remaining().empty()) throw std::runtime_error("content is followed by bytes that do not belong to it");
+  map.check();
+  return map;
+}
+
+}  // namespace
+
+std::string encodeMap(const KeyframeMap& map) {
+  map.check();
+  const std::string content = encodeContent(map);
+  ByteWriter out;
+  out.putAll(std::span<const char>(magic));
+  out.put(map_file_version);
+  out.put<uint64_t>(content.size());
+  out.put(checksum(content));
+  return out.take() + content;
+}
+
+KeyframeMap decodeMap(const std::string& bytes) {
+  if (!bytes.starts_with(magic)) throw std::runtime_error("not a .vmap file");
+  ByteReader in(std::string_view(bytes).substr(magic.size()));
+  const auto version = in.get<uint32_t>();
+  if (version != map_file_version)
+    throw std::runtime_error("format version " + std::to_string(version) + ", this program reads version " +
+                             std::to_string(map_file_version));
+  const auto size = in.get<uint64_t>();
+  const auto stored_checksum = in.get<uint32_t>();
+  if (in.remaining().size() < size) throw std::runtime_error("cut off");
+  if (in.remaining().size() > size) throw std::runtime_error("longer than its header says");
+  if (checksum(in.remaining()) != stored_checksum) throw std::runtime_error("damaged: wrong checksum");
+  try {
+    return decodeContent(in.remaining());
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("broken content: ") + error.what());
+  }
+}
+
+void saveMap(const std::filesystem::path& file, const KeyframeMap& map) {
+  const std::string bytes = encodeMap(map);
+  AtomicFile out(file);
+  out.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.commit();
+}
+
+KeyframeMap loadMap(const std::filesystem::path& file) {
+  try {
+    if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
+    if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a regular file");
+    std::string bytes(std::filesystem::file_size(file), '\0');
+    std::ifstream in(file, std::ios::binary);
+    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) throw std::runtime_error("cannot be read");
+    return decodeMap(bytes);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace vmcl

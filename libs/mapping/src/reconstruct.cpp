@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruct.h"
+
+#include <algorithm>
+
+#include "keyframe_pairs.h"
+#include "pose_uncertainty.h"
+#include "tracks.h"
+
+namespace vmcl {
+namespace {
+
+constexpr int neighbours = 12;         // keyframes that each keyframe is matched with
+constexpr double gate = 3.72;          // standard deviations that hold 99.9 % of a 2-D Gaussian
+constexpr double nearest_scene = 0.3;  // m from a camera
+constexpr double usual_depth = 2;      // m, to judge matches whose depth is not known yet
+constexpr double usual_spread = 0.25;  // rad that the views of a track differ from their mean
+// Share of the given uncertainty of poses and mounts that is left in each round.
+constexpr double rounds[] = {1, 0.2, 0};
+
+struct MatchedPair {
+  int first = 0;
+  int second = 0;
+  std::vector<FeatureMatch> matches;  // query: first, reference: second
+};
+
+PoseUncertainty uncertainty(const MapBuilderOptions& options, double share) {
+  return {share * options.sigma_position, share * options.sigma_heading, share * options.sigma_mount_tilt};
+}
+
+std::vector<ReferenceCamera> allViews(const Reconstruction& scene) {
+  std::vector<ReferenceCamera> views;
+  for (int k = 0; k < std::ssize(scene.keyframes); ++k) views.push_back(scene.view(k));
+  return views;
+}
+
+std::vector<MatchedPair> matchPairs(const Reconstruction& scene, const MapBuilderOptions& options,
+                                    const BuildProgress& progress) {
+  std::vector<MatchedPair> pairs;
+  const auto candidates = overlappingPairs(allViews(scene), neighbours);
+  for (const auto& [first, second] : candidates) {
+    progress("matching", static_cast<double>(pairs.size()) / static_cast<double>(candidates.size()));
+    const FeatureSet& query = scene.keyframes[static_cast<std::size_t>(first)].features;
+    const FeatureSet& reference = scene.keyframes[static_cast<std::size_t>(second)].features;
+    pairs.push_back({first, second, matchFeatures(query, reference, options.matching)});
+  }
+  return pairs;
+}
+
+/// The matches that agree with the poses as far as these are known.
+std::vector<ObservationMatch> consistentMatches(const Reconstruction& scene, std::span<const MatchedPair> pairs,
+                                                const PoseUncertainty& poses, double sigma_px) {
+  std::vector<ObservationMatch> consistent;
+  for (const MatchedPair& pair : pairs) {
+    const ReferenceCamera first = scene.view(pair.first), second = scene.view(pair.second);
+    const Rigid3 second_from_first = second.map_from_camera.inverse() * first.map_from_camera;
+    const double difference = viewDifference(first.map_from_camera, second.map_from_camera);
+    const double sigma_each =
+        std::hypot(sigma_px / std::min(first.camera.fx, second.camera.fx), poses.ofDirection(usual_depth, difference));
+    for (const FeatureMatch& match : pair.matches) {
+      const Observation seen_first{pair.first, match.query}, seen_second{pair.second, match.reference};
+      const double distance = epipolarArcDistance(first.camera.ray(scene.pixel(seen_first)).normalized(),
+                                                  second.camera.ray(scene.pixel(seen_second)).normalized(),
+                                                  second_from_first, nearest_scene);
+      if (distance < gate * std::sqrt(2) * sigma_each) consistent.push_back({seen_first, seen_second, match.ratio});
+    }
+  }
+  return consistent;
+}
+
+/// How far an observation lies from where the point should be seen, in standard deviations.
+double deviation(const Sighting& sighting, const Eigen::Vector3d& point_in_map, const PoseUncertainty& poses,
+                 double sigma_px) {
+  const double depth = std::max(nearest_scene, (sighting.view.map_from_camera.inverse() * point_in_map).z());
+  const double sigma = std::hypot(sigma_px, sighting.view.camera.fx * poses.ofDirection(depth, usual_spread));
+  return reprojectionError(sighting, point_in_map) / sigma;
+}
+
+/// Triangulates the track, leaving out one after the other the observation that fits worst.
+std::optional<ScenePoint> placeTrack(const Reconstruction& scene, Track track, const PoseUncertainty& poses,
+                                     double sigma_px) {
+  for (auto seen = sightings(scene, track); std::ssize(track) >= min_observations;) {
+    const auto point = triangulate(seen, sigma_px);
+    if (!point) return std::nullopt;
+    std::vector<double> deviations;
+    for (const Sighting& sighting : seen)
+      deviations.push_back(deviation(sighting, point->point_in_map, poses, sigma_px));
+    const auto worst = std::ranges::max_element(deviations) - deviations.begin();
+    if (deviations[static_cast<std::size_t>(worst)] < gate) {
+      if (!isWellPlaced(*point, seen)) return std::nullopt;
+      return ScenePoint{point->point_in_map, std::move(track)};
+    }
+    track.erase(track.begin() + worst);
+    seen.erase(seen.begin() + worst);
+  }
+  return std::nullopt;
+}
+
+void placeTracks(Reconstruction& scene, std::vector<Track> tracks, const PoseUncertainty& poses, double sigma_px) {
+  scene.points.clear();
+  for (Track& track : tracks)
+    if (auto point = placeTrack(scene, std::move(track), poses, sigma_px)) scene.points.push_back(std::move(*point));
+}
+
+std::vector<Track> tracksOf(std::vector<ScenePoint> points) {
+  std::vector<Track> tracks;
+  for (ScenePoint& point : points) tracks.push_back(std::move(point.track));
+  return tracks;
+}
+
+std::vector<int> featureCounts(const Reconstruction& scene) {
+  std::vector<int> counts;
+  for (const Keyframe& keyframe : scene.keyframes) counts.push_back(keyframe.features.size());
+  return counts;
+}
+
+}  // namespace
+
+AdjustmentNoise adjustmentNoise(const MapBuilderOptions& options) {
+  return {options.sigma_px, options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
+          options.sigma_mount_shift};
+}
+
+void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const BuildProgress& progress) {
+  const std::vector<MatchedPair> pairs = matchPairs(scene, options, progress);
+  double done = 0;
+  for (double share : rounds) {
+    progress("adjusting", done++ / std::ssize(rounds));
+    const PoseUncertainty poses = uncertainty(options, share);
+    auto matches = consistentMatches(scene, pairs, poses, options.sigma_px);
+    placeTracks(scene, joinTracks(featureCounts(scene), std::move(matches), min_observations), poses, options.sigma_px);
+    adjust(scene, adjustmentNoise(options));
+  }
+  placeTracks(scene, tracksOf(std::move(scene.points)), {}, options.sigma_px);
+  adjust(scene, adjustmentNoise(options));
+}
+
+std::vector<Sighting> sightings(const Reconstruction& scene, const Track& track) {
+  std::vector<Sighting> seen;
+  for (const Observation& observation : track)
+    seen.push_back({scene.view(observation.keyframe), scene.pixel(observation)});
+  return seen;
+}
+
+}  // namespace vmcl

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bundle_adjustment.h"
+#include "reconstruction.h"
+#include "triangulation.h"
+#include "vmcl/mapping/map_builder.h"
+
+namespace vmcl {
+
+/// Fewest keyframes that a landmark is seen from: with two, a false match along the epipolar line goes unnoticed.
+inline constexpr int min_observations = 3;
+
+/// Standard deviations that the adjustment weighs, from the builder's options.
+AdjustmentNoise adjustmentNoise(const MapBuilderOptions& options);
+
+/// Matches overlapping keyframes, joins the matches to tracks, triangulates them and adjusts everything. Done in
+/// rounds: as poses and mounts get better, what does not fit them is told apart more sharply.
+void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const BuildProgress& progress);
+
+/// The observations of a track with their views as they are now thought to be.
+std::vector<Sighting> sightings(const Reconstruction& scene, const Track& track);
+
+}  // namespace vmcl

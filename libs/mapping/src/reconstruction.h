@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vmcl/mapping/keyframe_map.h"
+
+namespace vmcl {
+
+/// A feature of a keyframe that shows a scene point.
+struct Observation {
+  int keyframe = 0;
+  int feature = 0;
+};
+
+/// Observations taken for one scene point, at most one a keyframe, by increasing keyframe.
+using Track = std::vector<Observation>;
+
+/// A track with its place in the map frame.
+struct ScenePoint {
+  Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
+  Track track;
+};
+
+/// Rotation by roll, pitch and yaw about the fixed x, y and z axis in this order.
+template <typename T>
+Eigen::Matrix<T, 3, 3> rotationFromRollPitchYaw(const Eigen::Matrix<T, 3, 1>& angles) {
+  using Axes = Eigen::Matrix<T, 3, 1>;
+  return (Eigen::AngleAxis<T>(angles.z(), Axes::UnitZ()) * Eigen::AngleAxis<T>(angles.y(), Axes::UnitY()) *
+          Eigen::AngleAxis<T>(angles.x(), Axes::UnitX()))
+      .toRotationMatrix();
+}
+
+/// How a camera sits on the robot against where it was said to sit.
+struct MountCorrection {
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw about the robot axes (rad)
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< along the robot axes (m); z stays 0: driving on flat ground
+                                                       ///< does not show it
+};
+
+/// What the builder knows of the scene and of where its keyframes were taken.
+struct Reconstruction {
+  std::vector<MapCamera> cameras;                  ///< with the mounts as given
+  std::vector<MountCorrection> mount_corrections;  ///< per camera
+  std::vector<Keyframe> keyframes;                 ///< with the poses as given
+  std::vector<PlanarPose> map_from_robot;          ///< per keyframe
+  std::vector<ScenePoint> points;
+
+  Rigid3 robotFromCamera(int camera) const {
+    const auto i = static_cast<std::size_t>(camera);
+    Rigid3 corrected = cameras[i].robot_from_camera;
+    corrected.linear() = rotationFromRollPitchYaw(mount_corrections[i].rotation) * corrected.linear();
+    corrected.translation() += mount_corrections[i].shift;
+    return corrected;
+  }
+
+  ReferenceCamera view(int keyframe) const {
+    const auto k = static_cast<std::size_t>(keyframe);
+    const int camera = keyframes[k].camera;
+    return {cameras[static_cast<std::size_t>(camera)].calibration.pinhole,
+            toRigid3(map_from_robot[k]) * robotFromCamera(camera)};
+  }
+
+  Eigen::Vector2d pixel(const Observation& observation) const {
+    return keyframes[static_cast<std::size_t>(observation.keyframe)]
+        .features.pixels[static_cast<std::size_t>(observation.feature)]
+        .cast<double>();
+  }
+};
+
+}  // namespace vmcl

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "triangulation.h"
+
+#include <Eigen/Dense>
+#include <limits>
+
+namespace vmcl {
+namespace {
+
+constexpr double min_depth = 0.05;  // m; nearer is no scene
+
+struct NormalEquations {
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double cost = 0;
+};
+
+/// Of the sum of squared reprojection errors; nothing when the point lies behind a view.
+std::optional<NormalEquations> linearize(std::span<const Sighting> sightings, const Eigen::Vector3d& point_in_map) {
+  NormalEquations sum;
+  for (const auto& [view, pixel] : sightings) {
+    const Eigen::Vector3d p = view.map_from_camera.inverse() * point_in_map;
+    if (!(p.z() > min_depth)) return std::nullopt;
+    Eigen::Matrix<double, 2, 3> pixel_by_point;
+    pixel_by_point << view.camera.fx / p.z(), 0, -view.camera.fx * p.x() / (p.z() * p.z()),  //
+        0, view.camera.fy / p.z(), -view.camera.fy * p.y() / (p.z() * p.z());
+    const Eigen::Matrix<double, 2, 3> J = pixel_by_point * view.map_from_camera.linear().transpose();
+    const Eigen::Vector2d error = view.camera.project(p) - pixel;
+    sum.hessian += J.transpose() * J;
+    sum.gradient += J.transpose() * error;
+    sum.cost += error.squaredNorm();
+  }
+  return sum;
+}
+
+/// Nearest to all rays in the least-squares sense; linear.
+std::optional<Eigen::Vector3d> nearestToRays(std::span<const Sighting> sightings) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const auto& [view, pixel] : sightings) {
+    const Eigen::Vector3d ray = (view.map_from_camera.linear() * view.camera.ray(pixel)).normalized();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
+    A += across;
+    b += across * view.map_from_camera.translation();
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> solver(A);
+  if (!(solver.rcond() > 1e-12)) return std::nullopt;
+  return solver.solve(b);
+}
+
+}  // namespace
+
+std::optional<MapPoint> triangulate(std::span<const Sighting> sightings, double sigma_px) {
+  auto point = nearestToRays(sightings);
+  if (!point) return std::nullopt;
+  auto equations = linearize(sightings, *point);
+  if (!equations) return std::nullopt;
+  double damping = 1e-3;
+  for (int iteration = 0; iteration < 30 && damping < 1e6; ++iteration) {
+    Eigen::Matrix3d damped = equations->hessian;
+    damped.diagonal() *= 1 + damping;
+    const Eigen::Vector3d moved = *point - damped.ldlt().solve(equations->gradient);
+    const auto moved_equations = linearize(sightings, moved);
+    if (!moved_equations || !(moved_equations->cost <= equations->cost)) {
+      damping *= 10;
+      continue;
+    }
+    const bool converged = (moved - *point).norm() < 1e-9 * (1 + moved.norm());
+    point = moved;
+    equations = moved_equations;
+    if (converged) break;
+    damping /= 10;
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> information(equations->hessian);
+  if (!(information.rcond() > 1e-14)) return std::nullopt;
+  const Eigen::Matrix3d covariance = sigma_px * sigma_px * information.solve(Eigen::Matrix3d::Identity());
+  return MapPoint{*point, (covariance + covariance.transpose()) / 2};
+}
+
+bool isWellPlaced(const MapPoint& point, std::span<const Sighting> sightings) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Sighting& sighting : sightings)
+    distance = std::min(distance, (sighting.view.map_from_camera.translation() - point.point_in_map).norm());
+  if (!point.covariance.allFinite()) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(point.covariance, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] > 0 && std::sqrt(eigen.eigenvalues()[2]) < distance / 3;
+}
+
+double reprojectionError(const Sighting& sighting, const Eigen::Vector3d& point_in_map) {
+  const Eigen::Vector3d p = sighting.view.map_from_camera.inverse() * point_in_map;
+  if (!(p.z() > min_depth)) return std::numeric_limits<double>::infinity();
+  return (sighting.view.camera.project(p) - sighting.pixel).norm();
+}
+
+}  // namespace vmcl
