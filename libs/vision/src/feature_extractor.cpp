@@ -14,6 +14,8 @@ namespace {
 
 constexpr int min_image_side = 16;  // pixels; less holds no feature and upsets the pyramids of OpenCV
 constexpr float orb_pyramid_scale = 1.2f;
+constexpr int orb_fast_threshold = 7;             // OpenCV's 20 and
+constexpr double sift_contrast_threshold = 0.02;  // 0.04 leave plain walls empty; max_features is the limit
 
 std::string sizeText(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
@@ -93,10 +95,10 @@ FeatureExtractor::FeatureExtractor(const FeatureOptions& options) : detector_(st
   options.check();
   detector_->options = options;
   if (options.kind == FeatureKind::sift)
-    detector_->feature2d = cv::SIFT::create(options.max_features);
+    detector_->feature2d = cv::SIFT::create(options.max_features, 3, sift_contrast_threshold);
   else
-    detector_->feature2d =
-        cv::ORB::create(options.max_features, orb_pyramid_scale, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31, 7);
+    detector_->feature2d = cv::ORB::create(options.max_features, orb_pyramid_scale, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE,
+                                           31, orb_fast_threshold);
 }
 
 FeatureExtractor::~FeatureExtractor() = default;

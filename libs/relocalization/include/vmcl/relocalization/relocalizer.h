@@ -13,11 +13,11 @@
 namespace vmcl {
 
 struct RelocalizerOptions {
-  MatchingOptions matching;
-  int retrieved = 3;                 ///< reference keyframes per image (the paper's 3)
-  double reliable_depth = 5;         ///< landmarks farther from the reference than this (m) give 2D-2D matches
-  double max_point_sigma = 0.25;     ///< and so do landmarks less certain than this (m, largest axis)
-  EstimatorOptions estimator;
+  MatchingOptions matching{};
+  int retrieved = 3;              ///< reference keyframes per image (the paper's 3)
+  double reliable_depth = 5;      ///< landmarks farther from the reference than this (m) give 2D-2D matches
+  double max_point_sigma = 0.25;  ///< and so do landmarks less certain than this (m, largest axis)
+  EstimatorOptions estimator{};
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
@@ -40,8 +40,8 @@ struct RelocalizationTimes {
 };
 
 struct RelocalizationResult {
-  PoseProblem problem;              ///< the matches that the estimate rests on
-  std::vector<int> keyframes;       ///< of the map, one per reference camera of the problem
+  PoseProblem problem;         ///< the matches that the estimate rests on
+  std::vector<int> keyframes;  ///< of the map, one per reference camera of the problem
   PoseEstimate estimate;
   RelocalizationTimes times;
 };
