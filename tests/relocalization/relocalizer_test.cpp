@@ -51,7 +51,7 @@ TEST_F(RelocalizerTest, FindsTheRobotAtEitherWall) {
     const auto result = relocalizer.relocalize({{query(image)}});
     ASSERT_TRUE(result.estimate.found()) << result.estimate.reason;
     expectNear(result.estimate.modes[0].robot_in_map, truth);
-    EXPECT_GT(result.estimate.modes[0].inliers, 50);
+    EXPECT_GT(result.estimate.modes[0].inliers.size(), 50u);
   }
 }
 
@@ -186,6 +186,9 @@ TEST(RelocalizerOptionsTest, NameTheBadKey) {
   refused({.reliable_depth = 0}, "reliable_depth");
   refused({.max_point_sigma = std::nan("")}, "max_point_sigma");
   refused({.matching = {.max_ratio = 2}}, "max_ratio");
+  RelocalizerOptions options;
+  options.estimator.iterations = 0;
+  refused(options, "iterations");
 }
 
 }  // namespace
