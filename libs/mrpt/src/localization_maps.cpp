@@ -9,6 +9,7 @@
 
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/localization_config.h"
+#include "vmcl/mrpt/visual_keyframe_map.h"
 
 namespace vmcl {
 namespace {
@@ -35,6 +36,12 @@ void fillFromFile(CMultiMetricMap& maps, const std::filesystem::path& file) {
   }
 }
 
+void refuseEmptyVisualMaps(const CMultiMetricMap& maps) {
+  for (const auto& map : maps.maps)
+    if (const auto* visual = dynamic_cast<const VisualKeyframeMap*>(map.get()); visual && !visual->content())
+      throw std::runtime_error("the visual map is empty: it has no map_file, and the simplemap has no images");
+}
+
 }  // namespace
 
 CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config) {
@@ -44,11 +51,11 @@ CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config) {
   } catch (const std::exception& error) {
     throw std::runtime_error(errorMessage(error));
   }
-  if (config.map_file.empty()) return maps;
   try {
-    fillFromFile(*maps, config.map_file);
+    if (!config.map_file.empty()) fillFromFile(*maps, config.map_file);
+    refuseEmptyVisualMaps(*maps);
   } catch (const std::exception& error) {
-    throw std::runtime_error(config.map_file.string() + ": " + errorMessage(error));
+    throw std::runtime_error((config.map_file.empty() ? "" : config.map_file.string() + ": ") + errorMessage(error));
   }
   return maps;
 }

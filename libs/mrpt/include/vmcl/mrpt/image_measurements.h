@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "vmcl/estimation/likelihood.h"
+#include "vmcl/mrpt/visual_map_options.h"
+#include "vmcl/relocalization/relocalizer.h"
+
+namespace vmcl {
+
+/// What an image says about the robot's pose: its matches with the map, ready to weigh particles.
+struct ImageMeasurement {
+  std::string error;  ///< why the image cannot be used; empty: it can
+  PoseProblem problem;
+  std::optional<PoseLikelihood> likelihood;  ///< none without matches
+  double temper = 1;                         ///< factor of the log likelihood
+  mutable std::atomic_flag reported;         ///< the error has been told
+
+  /// Tempered log likelihood; 0 when the image says nothing.
+  double logLikelihood(const PlanarPose& robot_in_map) const;
+
+  /// True once for an image that cannot be used.
+  bool isFirstFailure() const { return !error.empty() && !reported.test_and_set(); }
+};
+
+/// Matches every image with the map once, however many particles ask. MRPT gives no sign of a new observation, so it is
+/// known by its address, time and label. Thread safe.
+class ImageMeasurements {
+ public:
+  ImageMeasurements(std::shared_ptr<const KeyframeMap> map, const VisualMapOptions& options);
+
+  /// Broken images give a measurement with an error.
+  std::shared_ptr<const ImageMeasurement> of(const mrpt::obs::CObservation& observation);
+
+  const Relocalizer& relocalizer() const { return relocalizer_; }
+
+ private:
+  struct Entry {
+    const mrpt::obs::CObservation* address;
+    mrpt::Clock::time_point time;
+    std::string label;
+    std::shared_ptr<const ImageMeasurement> measurement;
+  };
+
+  void measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const;
+
+  VisualMapOptions options_;
+  Relocalizer relocalizer_;
+  std::mutex mutex_;
+  std::deque<Entry> recent_;  ///< newest first
+};
+
+}  // namespace vmcl

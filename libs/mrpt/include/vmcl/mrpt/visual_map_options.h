@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <string>
+
+#include "vmcl/mapping/map_builder.h"
+#include "vmcl/relocalization/relocalizer.h"
+
+namespace vmcl {
+
+/// What the ini says about a visual map, in the three sections that MRPT gives every map. A particle's log likelihood
+/// is
+///
+///     min(1, effective_matches / matches) * L(pose), with L at particle_sigma_px in place of sigma_px.
+///
+/// The factor is there because errors of one image's matches are not independent (a shift of the mount, of a
+/// landmark cluster, of the time stamp moves many of them at once), as AMCL counts only laser_max_beams of the beams.
+/// The wider noise gives each particle the likelihood of its neighbourhood: a few thousand particles lie centimetres
+/// apart, where an image tells millimetres.
+struct VisualMapOptions {
+  std::string map_file;            ///< [.._creationOpts] a .vmap; empty: the map is built from inserted images
+  double particle_sigma_px = 8;    ///< [.._likelihoodOpts] pixel noise when particles are weighed
+  double effective_matches = 20;   ///< [.._likelihoodOpts] independent matches that an image counts as, at most
+  RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
+                                   ///< sigma_px, inlier_prior, iterations, max_modes
+  std::string features = "sift";   ///< [.._insertOpts] sift or orb
+  MapBuilderOptions builder;       ///< [.._insertOpts] max_features, mask_rows_from_top, keyframe_distance,
+                                   ///< keyframe_rotation, sigma_mount_tilt, words
+
+  /// Throws std::invalid_argument naming the bad key.
+  void check() const;
+
+  /// Reads `prefix`_creationOpts, `prefix`_likelihoodOpts and `prefix`_insertOpts. Throws std::invalid_argument naming
+  /// section and key, also for a key that is not known.
+  void read(const mrpt::config::CConfigFileBase& ini, const std::string& prefix);
+
+  /// The sections as read() takes them.
+  void write(mrpt::config::CConfigFileBase& ini, const std::string& prefix) const;
+};
+
+}  // namespace vmcl

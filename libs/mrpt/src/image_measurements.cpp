@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/image_measurements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vmcl/mrpt/camera_observation.h"
+
+namespace vmcl {
+namespace {
+
+constexpr std::size_t remembered = 16;  // images: more than the cameras of a robot
+
+}  // namespace
+
+double ImageMeasurement::logLikelihood(const PlanarPose& robot_in_map) const {
+  if (!likelihood || !isFinite(robot_in_map)) return 0;
+  const double value = temper * (*likelihood)(robot_in_map);
+  return std::isfinite(value) ? value : 0;
+}
+
+ImageMeasurements::ImageMeasurements(std::shared_ptr<const KeyframeMap> map, const VisualMapOptions& options)
+    : options_(options), relocalizer_(std::move(map), options.relocalizer) {}
+
+std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::CObservation& observation) {
+  const std::scoped_lock lock(mutex_);
+  const auto known = std::find_if(recent_.begin(), recent_.end(), [&](const Entry& entry) {
+    return entry.address == &observation && entry.time == observation.timestamp &&
+           entry.label == observation.sensorLabel;
+  });
+  if (known != recent_.end()) return known->measurement;
+  const auto measurement = std::make_shared<ImageMeasurement>();
+  try {
+    measure(observation, *measurement);
+  } catch (const std::exception& error) {
+    measurement->error = error.what();
+  }
+  recent_.push_front({&observation, observation.timestamp, observation.sensorLabel, measurement});
+  if (recent_.size() > remembered) recent_.pop_back();
+  return measurement;
+}
+
+void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const {
+  const auto camera = cameraObservation(observation);
+  if (!camera) return;
+  QueryImage query{camera->image.view(), camera->calibration, camera->robot_from_camera, 0};
+  const auto& cameras = relocalizer_.map().cameras;
+  const auto same = std::find_if(cameras.begin(), cameras.end(),
+                                 [&](const MapCamera& of_map) { return of_map.label == camera->label; });
+  if (same != cameras.end()) {
+    query.robot_from_camera = same->robot_from_camera;
+    query.mask_rows_from_top = same->mask_rows_from_top;
+  }
+  measurement.problem = relocalizer_.match({&query, 1}).problem;
+  if (measurement.problem.matches.empty()) return;
+  LikelihoodOptions of_particles = options_.relocalizer.estimator.likelihood;
+  of_particles.sigma_px = options_.particle_sigma_px;
+  measurement.likelihood.emplace(measurement.problem, of_particles);
+  measurement.temper =
+      std::min(1.0, options_.effective_matches / static_cast<double>(measurement.problem.matches.size()));
+}
+
+}  // namespace vmcl

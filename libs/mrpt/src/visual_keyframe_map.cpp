@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/visual_keyframe_map.h"
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <algorithm>
+#include <iostream>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "vmcl/mapping/map_builder.h"
+#include "vmcl/mapping/map_file.h"
+#include "vmcl/mrpt/camera_observation.h"
+#include "vmcl/mrpt/image_measurements.h"
+
+namespace vmcl {
+namespace {
+
+struct InsertedImage {
+  CameraObservation observation;
+  Rigid3 map_from_robot;
+};
+
+KeyframeMap build(const std::vector<InsertedImage>& images, const MapBuilderOptions& options) {
+  std::vector<MapCamera> cameras;
+  std::vector<int> camera_of_image;
+  for (const InsertedImage& image : images) {
+    const CameraObservation& seen = image.observation;
+    const auto known = std::find_if(cameras.begin(), cameras.end(),
+                                    [&](const MapCamera& camera) { return camera.label == seen.label; });
+    camera_of_image.push_back(static_cast<int>(known - cameras.begin()));
+    if (known == cameras.end())
+      cameras.push_back({seen.label, seen.calibration, seen.robot_from_camera, options.features.mask_rows_from_top});
+  }
+  MapBuilder builder(std::move(cameras), options);
+  for (std::size_t i = 0; i < images.size(); ++i)
+    builder.add(images[i].observation.time, camera_of_image[i], images[i].map_from_robot,
+                images[i].observation.image.view());
+  return builder.build().first;
+}
+
+Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
+  Rigid3 rigid = Rigid3::Identity();
+  rigid.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
+  return rigid;
+}
+
+}  // namespace
+
+/// What is made when it is first asked for, and copied without.
+struct VisualKeyframeMap::State {
+  std::mutex mutex;
+  std::vector<InsertedImage> inserted;
+  std::shared_ptr<const KeyframeMap> content;
+  std::shared_ptr<ImageMeasurements> measurements;
+
+  /// With the mutex held.
+  const std::shared_ptr<const KeyframeMap>& built(const VisualMapOptions& options) {
+    if (!content && !inserted.empty()) content = std::make_shared<const KeyframeMap>(build(inserted, options.builder));
+    return content;
+  }
+
+  /// Null when the map is empty.
+  std::shared_ptr<const ImageMeasurement> measurement(const mrpt::obs::CObservation& observation,
+                                                      const VisualMapOptions& options) {
+    std::shared_ptr<ImageMeasurements> ready;
+    {
+      const std::scoped_lock lock(mutex);
+      if (!built(options)) return nullptr;
+      if (!measurements) measurements = std::make_shared<ImageMeasurements>(content, options);
+      ready = measurements;
+    }
+    return ready->of(observation);
+  }
+};
+
+VisualKeyframeMap::VisualKeyframeMap() : state_(std::make_unique<State>()) {}
+
+VisualKeyframeMap::VisualKeyframeMap(const VisualMapOptions& options)
+    : VisualKeyframeMap(options, options.map_file.empty()
+                                     ? nullptr
+                                     : std::make_shared<const KeyframeMap>(loadMap(options.map_file))) {}
+
+VisualKeyframeMap::VisualKeyframeMap(const VisualMapOptions& options, std::shared_ptr<const KeyframeMap> content)
+    : options_(options), state_(std::make_unique<State>()) {
+  options_.check();
+  state_->content = std::move(content);
+}
+
+VisualKeyframeMap::~VisualKeyframeMap() = default;
+
+VisualKeyframeMap::VisualKeyframeMap(const VisualKeyframeMap& other) : VisualKeyframeMap() { *this = other; }
+
+VisualKeyframeMap& VisualKeyframeMap::operator=(const VisualKeyframeMap& other) {
+  if (this == &other) return *this;
+  auto copy = std::make_unique<State>();
+  {
+    const std::scoped_lock lock(other.state_->mutex);
+    copy->inserted = other.state_->inserted;
+    copy->content = other.state_->content;
+  }
+  CMetricMap::operator=(other);
+  options_ = other.options_;
+  state_ = std::move(copy);
+  return *this;
+}
+
+std::shared_ptr<const KeyframeMap> VisualKeyframeMap::content() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->built(options_);
+}
+
+std::shared_ptr<const KeyframeMap> VisualKeyframeMap::contentOrReport() const try {
+  return content();
+} catch (const std::exception& error) {
+  std::cerr << "vmcl: visual map: " << error.what() << '\n';
+  return nullptr;
+}
+
+void VisualKeyframeMap::internal_clear() {
+  if (!options_.map_file.empty()) return;
+  state_ = std::make_unique<State>();
+}
+
+bool VisualKeyframeMap::isEmpty() const {
+  const std::scoped_lock lock(state_->mutex);
+  return !state_->content && state_->inserted.empty();
+}
+
+bool VisualKeyframeMap::internal_insertObservation(const mrpt::obs::CObservation& observation,
+                                                   const std::optional<const mrpt::poses::CPose3D>& robot_in_map) {
+  if (!options_.map_file.empty()) return false;
+  auto camera = cameraObservation(observation);
+  if (!camera) return false;
+  const std::scoped_lock lock(state_->mutex);
+  state_->inserted.push_back({std::move(*camera), rigidOf(robot_in_map.value_or(mrpt::poses::CPose3D()))});
+  state_->content.reset();
+  state_->measurements.reset();
+  return true;
+}
+
+bool VisualKeyframeMap::internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& observation) const {
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation))
+    return scan->hasIntensityImage;
+  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr;
+}
+
+double VisualKeyframeMap::internal_computeObservationLikelihood(const mrpt::obs::CObservation& observation,
+                                                                const mrpt::poses::CPose3D& robot_in_map) const try {
+  if (!internal_canComputeObservationLikelihood(observation)) return 0;
+  const auto measurement = state_->measurement(observation, options_);
+  if (!measurement) return 0;
+  if (measurement->isFirstFailure()) std::cerr << "vmcl: " << measurement->error << '\n';
+  return measurement->logLikelihood({robot_in_map.x(), robot_in_map.y(), robot_in_map.yaw()});
+} catch (const std::exception&) {
+  return 0;  // thrown on, it would end the program; contentOrReport() has told why the map cannot be built
+}
+
+void VisualKeyframeMap::addLogLikelihoods(const mrpt::obs::CObservation& observation,
+                                          std::span<const PlanarPose> robot_in_map, int threads,
+                                          std::span<double> log_likelihoods) const {
+  const auto measurement = state_->measurement(observation, options_);
+  if (!measurement || !measurement->likelihood) return;
+  const std::size_t count = robot_in_map.size(), workers = static_cast<std::size_t>(threads);
+  const auto weigh = [&](std::size_t worker) {
+    for (std::size_t i = count * worker / workers; i < count * (worker + 1) / workers; ++i)
+      log_likelihoods[i] += measurement->logLikelihood(robot_in_map[i]);
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t worker = 1; worker < workers; ++worker) others.emplace_back(weigh, worker);
+  weigh(0);
+}
+
+PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observation) const {
+  const auto measurement = state_->measurement(observation, options_);
+  if (measurement && !measurement->error.empty()) throw std::runtime_error(measurement->error);
+  if (!measurement || !measurement->likelihood) {
+    PoseEstimate nothing;
+    nothing.reason = "no matches";
+    return nothing;
+  }
+  return estimatePose(measurement->problem, options_.relocalizer.estimator);
+}
+
+void VisualKeyframeMap::extend(PoseBox& box) const {
+  constexpr double margin = 2;  // m about the keyframes
+  const auto map = contentOrReport();
+  if (!map) return;
+  for (const Keyframe& keyframe : map->keyframes) {
+    const Eigen::Vector3d position = keyframe.map_from_robot.translation();
+    box.min_x = std::min(box.min_x, position.x() - margin);
+    box.max_x = std::max(box.max_x, position.x() + margin);
+    box.min_y = std::min(box.min_y, position.y() - margin);
+    box.max_y = std::max(box.max_y, position.y() + margin);
+  }
+}
+
+std::string VisualKeyframeMap::asString() const {
+  const auto map = contentOrReport();
+  return "VisualKeyframeMap: " + std::to_string(map ? map->keyframes.size() : 0) + " keyframes, " +
+         std::to_string(map ? map->landmarks.size() : 0) + " landmarks";
+}
+
+void VisualKeyframeMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+  if (const auto map = contentOrReport()) saveMap(prefix + ".vmap", *map);
+}
+
+}  // namespace vmcl

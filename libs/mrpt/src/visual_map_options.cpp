@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/visual_map_options.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "vmcl/mrpt/ini_section.h"
+
+namespace vmcl {
+namespace {
+
+template <typename Options, typename Visit>
+void visitLikelihoodOptions(Options& options, Visit&& visit) {
+  auto& relocalizer = options.relocalizer;
+  visit("particle_sigma_px", options.particle_sigma_px);
+  visit("effective_matches", options.effective_matches);
+  visit("retrieved", relocalizer.retrieved);
+  visit("reliable_depth", relocalizer.reliable_depth);
+  visit("max_point_sigma", relocalizer.max_point_sigma);
+  visit("max_ratio", relocalizer.matching.max_ratio);
+  visit("sigma_px", relocalizer.estimator.likelihood.sigma_px);
+  visit("inlier_prior", relocalizer.estimator.likelihood.inlier_prior);
+  visit("iterations", relocalizer.estimator.iterations);
+  visit("max_modes", relocalizer.estimator.max_modes);
+}
+
+template <typename Options, typename Visit>
+void visitInsertionOptions(Options& options, Visit&& visit) {
+  auto& builder = options.builder;
+  visit("features", options.features);
+  visit("max_features", builder.features.max_features);
+  visit("mask_rows_from_top", builder.features.mask_rows_from_top);
+  visit("keyframe_distance", builder.keyframe_distance);
+  visit("keyframe_rotation", builder.keyframe_rotation);
+  visit("sigma_mount_tilt", builder.sigma_mount_tilt);
+  visit("words", builder.words);
+}
+
+std::string textOf(const std::string& value) { return value; }
+
+template <typename Number>
+std::string textOf(Number value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+}  // namespace
+
+void VisualMapOptions::check() const {
+  const auto demand = [](const char* key, double value) {
+    if (!(value > 0) || !std::isfinite(value))
+      throw std::invalid_argument(std::string(key) + " = " + std::to_string(value) + " is not positive");
+  };
+  demand("particle_sigma_px", particle_sigma_px);
+  demand("effective_matches", effective_matches);
+  featureKindFromName(features);
+  relocalizer.check();
+  builder.check();
+}
+
+void VisualMapOptions::read(const mrpt::config::CConfigFileBase& ini, const std::string& prefix) {
+  IniSection creation(ini, prefix + "_creationOpts");
+  creation.read("map_file", map_file);
+  creation.allow({"enableSaveAs3DObject", "enableObservationLikelihood", "enableObservationInsertion"});
+  creation.refuseUnknownKeys();
+  IniSection likelihood(ini, prefix + "_likelihoodOpts");
+  visitLikelihoodOptions(*this, [&](const char* key, auto& value) { likelihood.read(key, value); });
+  likelihood.refuseUnknownKeys();
+  IniSection insertion(ini, prefix + "_insertOpts");
+  visitInsertionOptions(*this, [&](const char* key, auto& value) { insertion.read(key, value); });
+  insertion.refuseUnknownKeys();
+  builder.features.kind = featureKindFromName(features);
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("[" + prefix + "_...] " + error.what());
+  }
+}
+
+void VisualMapOptions::write(mrpt::config::CConfigFileBase& ini, const std::string& prefix) const {
+  ini.write(prefix + "_creationOpts", "map_file", map_file);
+  visitLikelihoodOptions(
+      *this, [&](const char* key, const auto& value) { ini.write(prefix + "_likelihoodOpts", key, textOf(value)); });
+  visitInsertionOptions(
+      *this, [&](const char* key, const auto& value) { ini.write(prefix + "_insertOpts", key, textOf(value)); });
+}
+
+}  // namespace vmcl
