@@ -37,8 +37,16 @@ class CommandTest(unittest.TestCase):
         return Path(shutil.copy(file, self.path(name or Path(file).name)))
 
     def vmcl(self, *arguments, stdin=''):
-        return subprocess.run([BIN / 'vmcl', *map(str, arguments)], input=stdin, text=True, capture_output=True,
-                              cwd=self.folder, timeout=300, check=False)
+        return subprocess.run([BIN / 'vmcl', *map(str, arguments)], input=stdin, text=True, errors='backslashreplace',
+                              capture_output=True, cwd=self.folder, timeout=300, check=False)
+
+    def spoil(self, log, how):
+        """A copy of the sample's log, with its images, spoiled as spoil_rawlog knows how."""
+        spoiled = self.path(f'{how}.rawlog')
+        subprocess.run([BIN / 'spoil_rawlog', SAMPLE / log, how, spoiled], check=True, capture_output=True)
+        images = self.path(f'{how}_Images')
+        images.symlink_to(SAMPLE / (Path(log).stem + '_Images'))
+        return spoiled
 
     def succeed(self, *arguments, stdin=''):
         """Runs the command, which must have nothing to complain about, and returns what it printed."""

@@ -58,6 +58,17 @@ const std::map<std::string, std::function<void(CObservation&)>> spoilers = {
     {"nan_odometry", spoilOdometry},
 };
 
+bool isCamera(const CObservation::Ptr& observation) {
+  return observation->sensorLabel == "camera";
+}
+
+void removeCamera(CRawlog& log) {
+  for (std::size_t i = log.size(); i-- > 0;) {
+    const auto observation = std::dynamic_pointer_cast<CObservation>(log.getAsGeneric(i));
+    if (observation && isCamera(observation)) log.remove(i);
+  }
+}
+
 void spoilLog(CRawlog& log, const std::string& how) {
   const auto& spoil = spoilers.at(how);
   for (std::size_t i = 0; i < log.size(); ++i) {

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`vmcl map`: from a simplemap and from a log with a trajectory; broken logs, trajectories and simplemaps are refused."""
+from command import SAMPLE, SOME_INPUT_BAD, CommandTest, main
+
+LOG = SAMPLE / 'map.rawlog'
+POSES = SAMPLE / 'map.groundtruth.tum'
+SIMPLE_MAP = SAMPLE / 'map.simplemap'
+
+
+class MapTest(CommandTest):
+    def map_of(self, log, trajectory=POSES):
+        return ['map', log, '--trajectory', trajectory, '-o', 'out.vmap']
+
+    def test_log_with_trajectory(self):
+        printed = self.succeed(*self.map_of(LOG))
+        self.assertIn('keyframes', printed)
+        self.assertIn("camera 'camera': 640x480", self.succeed('map', '--info', 'out.vmap'))
+
+    def test_same_input_same_bytes(self):
+        for name in ('once', 'twice'):
+            self.succeed('map', SIMPLE_MAP, '-o', f'{name}.vmap')
+        self.assertEqual(self.path('once.vmap').read_bytes(), self.path('twice.vmap').read_bytes())
+
+    def test_broken_logs(self):
+        for broken in (b'', b'garbage' * 1000, LOG.read_bytes()[:40], SIMPLE_MAP.read_bytes()):
+            with self.subTest(broken[:20]):
+                self.write('broken.rawlog', broken)
+                self.assert_refused(self.map_of('broken.rawlog'), 'broken.rawlog')
+        for name in ('nowhere.rawlog', '.'):
+            self.assert_refused(self.map_of(name), name)
+
+    def test_logs_with_a_broken_camera(self):
+        for how in ('no_intrinsics', 'nan_intrinsics', 'nan_mount', 'missing_image'):
+            with self.subTest(how):
+                self.assert_refused(self.map_of(self.spoil('map.rawlog', how)), f'{how}.rawlog', "'camera'")
+
+    def test_log_without_a_camera(self):
+        self.assert_refused(self.map_of(self.spoil('map.rawlog', 'no_camera')), 'no_camera.rawlog', 'camera')
+
+    def test_broken_trajectories(self):
+        good = POSES.read_text()
+        for broken in ('0 nan 0 0 0 0 0 1\n', good + '0 0 0 0 0 0 0 1\n', 'garbage\n', good[:len(good) // 2] + ' x\n'):
+            with self.subTest(broken[-40:]):
+                self.write('broken.tum', broken)
+                self.assert_refused(self.map_of(LOG, 'broken.tum'), 'broken.tum')
+        self.assert_refused(self.map_of(LOG, 'nowhere.tum'), 'nowhere.tum')
+        self.write('other.tum', '5 0 0 0 0 0 0 1\n6 0 0 0 0 0 0 1\n')
+        self.assert_refused(self.map_of(LOG, 'other.tum'), 'map.rawlog', 'pose')
+
+    def test_broken_simplemaps(self):
+        good = SIMPLE_MAP.read_bytes()
+        for broken in (b'', b'garbage' * 1000, good[:len(good) // 2], LOG.read_bytes()):
+            with self.subTest(broken[:20]):
+                self.write('broken.simplemap', broken)
+                self.assert_refused(['map', 'broken.simplemap', '-o', 'out.vmap'], 'broken.simplemap')
+        self.assert_refused(['map', 'nowhere.simplemap', '-o', 'out.vmap'], 'nowhere.simplemap')
+
+    def test_log_that_is_cut_off(self):
+        """What there is of it is used, and the end is named."""
+        log = LOG.read_bytes()
+        self.write('map_Images/cut', '')
+        self.write('cut.rawlog', log[:len(log) // 2])
+        self.path('cut_Images').symlink_to(SAMPLE / 'map_Images')
+        self.assert_complaint(self.vmcl(*self.map_of('cut.rawlog')), SOME_INPUT_BAD, 'cut.rawlog', 'entry')
+        self.succeed('map', '--info', 'out.vmap')
+
+    def test_bad_arguments(self):
+        for arguments, word in (([], 'INPUT'), ([LOG], 'output'), ([LOG, '-o', 'out.vmap'], 'trajectory'),
+                                ([SIMPLE_MAP, '--trajectory', POSES, '-o', 'out.vmap'], 'trajectory'),
+                                ([SIMPLE_MAP, '-o', 'out.vmap', '--features', 'magic'], 'magic'),
+                                ([SIMPLE_MAP, '-o', 'out.vmap', '--max-features', '0'], 'max_features'),
+                                ([SIMPLE_MAP, '-o', 'out.vmap', '--keyframe-distance', 'nan'], 'keyframe_distance'),
+                                ([SIMPLE_MAP, '-o', 'nowhere/out.vmap'], 'nowhere/out.vmap')):
+            with self.subTest(arguments[-2:]):
+                self.assert_refused(['map', *arguments], word)
+
+    def test_info_of_broken_maps(self):
+        good = (SAMPLE / 'sample.vmap').read_bytes()
+        flipped = bytearray(good)
+        flipped[len(good) // 2] ^= 1
+        huge = good[:12] + b'\xff' * 8 + good[20:]
+        for broken in (b'', b'garbage' * 1000, good[:len(good) // 2], bytes(flipped), huge, good + b'\0'):
+            with self.subTest(broken[:20]):
+                self.write('broken.vmap', broken)
+                self.assert_refused(['map', '--info', 'broken.vmap'], 'broken.vmap')
+        self.assert_refused(['map', '--info', 'nowhere.vmap'], 'nowhere.vmap')
+
+
+if __name__ == '__main__':
+    main()
