@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera_stream.h"
 
-#include <iostream>
-
 namespace vmcl {
 
-CameraStream::CameraStream(std::string verb, const std::filesystem::path& rawlog)
-    : verb_(std::move(verb)), rawlog_(rawlog), reader_(rawlog) {}
+CameraStream::CameraStream(const std::filesystem::path& rawlog) : rawlog_(rawlog), reader_(rawlog) {}
 
 std::optional<CameraObservation> CameraStream::next() {
   while (!waiting_.empty() || readEntry()) {
@@ -16,14 +13,14 @@ std::optional<CameraObservation> CameraStream::next() {
     try {
       if (auto camera = cameraObservation(*observation)) return camera;
     } catch (const std::exception& error) {
-      complain(rawlog_.string() + ": " + error.what());
+      problems_.add(rawlog_.string() + ": " + error.what());
     }
   }
   return std::nullopt;
 }
 
 void CameraStream::reject(const std::string& label, double time, const std::string& reason) {
-  complain(rawlog_.string() + ": camera '" + label + "' at " + std::to_string(time) + " s: " + reason);
+  problems_.add(rawlog_.string() + ": camera '" + label + "' at " + std::to_string(time) + " s: " + reason);
 }
 
 bool CameraStream::readEntry() {
@@ -31,17 +28,12 @@ bool CameraStream::readEntry() {
   try {
     if (!reader_.next(entry)) return false;
   } catch (const std::runtime_error& error) {
-    complain(error.what());
+    problems_.add(error.what());
     return false;
   }
   if (entry.frame) waiting_.assign(entry.frame->begin(), entry.frame->end());
   if (entry.observation) waiting_.push_back(entry.observation);
   return true;
-}
-
-void CameraStream::complain(const std::string& what) {
-  std::cerr << "vmcl " << verb_ << ": " << what << '\n';
-  ++rejected_count_;
 }
 
 }  // namespace vmcl

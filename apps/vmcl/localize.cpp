@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 
+#include "problem_report.h"
 #include "progress_bar.h"
 #include "verbs.h"
 #include "vmcl/datasets/rawlog_reader.h"
@@ -23,9 +24,9 @@ struct Request {
   int threads = 1;
 };
 
-/// Runs through the log; returns the exit code so far.
-int replay(Localizer& localizer, const std::filesystem::path& rawlog, LocalizationRun& run) {
-  int exit_code = exit_done;
+/// Runs through the log; returns what was wrong with it.
+ProblemReport replay(Localizer& localizer, const std::filesystem::path& rawlog, LocalizationRun& run) {
+  ProblemReport problems;
   RawlogReader reader(rawlog);
   ProgressBar bar;
   RawlogEntry entry;
@@ -33,17 +34,13 @@ int replay(Localizer& localizer, const std::filesystem::path& rawlog, Localizati
     while (reader.next(entry)) {
       bar.update("localizing", reader.progress());
       if (const auto frame = localizer.step(entry.action, entry.frame, entry.observation)) run.frames.push_back(*frame);
-      for (const std::string& problem : localizer.takeProblems()) {
-        std::cerr << "vmcl localize: " << problem << '\n';
-        exit_code = exit_some_input_bad;
-      }
+      for (const std::string& problem : localizer.takeProblems()) problems.add(rawlog.string() + ": " + problem);
     }
   } catch (const std::runtime_error& error) {
     if (run.frames.empty()) throw;
-    std::cerr << "vmcl localize: " << error.what() << '\n';
-    exit_code = exit_some_input_bad;
+    problems.add(error.what());
   }
-  return exit_code;
+  return problems;
 }
 
 void printSummary(const LocalizationRun& run) {
@@ -89,12 +86,15 @@ int localize(const Request& request) {
   LocalizationRun run;
   if (!request.ground_truth.empty()) run.ground_truth = readTumTrajectory(request.ground_truth);
   Localizer localizer(config, loadMaps(config));
-  const int exit_code = replay(localizer, config.rawlog_file, run);
+  const ProblemReport problems = replay(localizer, config.rawlog_file, run);
   if (run.frames.empty())
-    throw std::runtime_error(config.rawlog_file.string() + ": no observation that the configured maps can use");
+    throw std::runtime_error(problems.empty()
+                                 ? config.rawlog_file.string() + ": no observation that the configured maps can use"
+                                 : problems.inOneLine());
+  problems.print("localize");
   printSummary(run);
   if (!request.out.empty()) writeAll(request.out, run, localizer);
-  return exit_code;
+  return problems.empty() ? exit_done : exit_some_input_bad;
 }
 
 }  // namespace

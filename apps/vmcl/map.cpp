@@ -80,11 +80,13 @@ int runMap(const MapArguments& arguments) {
     images.readSimpleMap(arguments.input, reading);
   else
     images.readRawlog(arguments.input, readTumTrajectory(arguments.trajectory), reading);
-  for (const std::string& problem : images.problems()) std::cerr << "vmcl map: " << problem << '\n';
-  if (images.images() == 0) throw std::runtime_error(arguments.input + ": no camera images");
+  if (images.images() == 0)
+    throw std::runtime_error(images.problems().empty() ? arguments.input + ": no camera images"
+                                                       : images.problems().inOneLine());
   if (builder.keyframeCount() == 0) throw std::runtime_error(arguments.input + ": no image has a pose");
   const auto [map, report] = builder.build([&](std::string_view stage, double share) { bar.update(stage, share); });
   saveMap(arguments.output, map);
+  images.problems().print("map");
   print(report, map, images);
   return images.problems().empty() ? exit_done : exit_some_input_bad;
 }

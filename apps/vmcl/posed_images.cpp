@@ -45,7 +45,7 @@ int PosedImages::cameraOf(const CameraObservation& seen) {
   return entry->second.first;
 }
 
-void PosedImages::offer(const mrpt::obs::CObservation& observation,
+void PosedImages::offer(const std::filesystem::path& file, const mrpt::obs::CObservation& observation,
                         const std::function<std::optional<Rigid3>(double)>& pose_at) try {
   const auto seen = cameraObservation(observation);
   if (!seen) return;
@@ -57,7 +57,7 @@ void PosedImages::offer(const mrpt::obs::CObservation& observation,
   }
   builder_.add(seen->time, cameraOf(*seen), *map_from_robot, seen->image.view());
 } catch (const std::exception& error) {
-  problems_.push_back(errorMessage(error));
+  problems_.add(file.string() + ": " + errorMessage(error));
 }
 
 void PosedImages::readRawlog(const std::filesystem::path& file, const Trajectory& trajectory,
@@ -67,13 +67,13 @@ void PosedImages::readRawlog(const std::filesystem::path& file, const Trajectory
   RawlogEntry entry;
   try {
     while (reader.next(entry)) {
-      if (entry.observation) offer(*entry.observation, pose_at);
+      if (entry.observation) offer(file, *entry.observation, pose_at);
       if (entry.frame)
-        for (const auto& observation : *entry.frame) offer(*observation, pose_at);
+        for (const auto& observation : *entry.frame) offer(file, *observation, pose_at);
       progress(reader.progress());
     }
   } catch (const std::exception& error) {  // what came before the damage is still good
-    problems_.push_back(errorMessage(error));
+    problems_.add(errorMessage(error));
   }
 }
 
@@ -83,7 +83,7 @@ void PosedImages::readSimpleMap(const std::filesystem::path& file, const ReadPro
   for (const auto& [distribution, frame] : simple_map) {
     if (!distribution || !frame) throw std::runtime_error(file.string() + ": an entry without pose or observations");
     const Rigid3 map_from_robot = meanPose(*distribution);
-    for (const auto& observation : *frame) offer(*observation, [&](double) { return map_from_robot; });
+    for (const auto& observation : *frame) offer(file, *observation, [&](double) { return map_from_robot; });
     progress(++done / static_cast<double>(simple_map.size()));
   }
 }

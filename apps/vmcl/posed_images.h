@@ -7,8 +7,8 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
+#include "problem_report.h"
 #include "vmcl/geometry/trajectory.h"
 #include "vmcl/mapping/map_builder.h"
 
@@ -30,18 +30,19 @@ class PosedImages {
   int images() const { return images_; }
   int imagesWithoutPose() const { return images_without_pose_; }
 
-  /// What could not be used, a line each.
-  const std::vector<std::string>& problems() const { return problems_; }
+  /// What could not be used.
+  const ProblemReport& problems() const { return problems_; }
 
  private:
-  void offer(const mrpt::obs::CObservation& observation, const std::function<std::optional<Rigid3>(double)>& pose_at);
+  void offer(const std::filesystem::path& file, const mrpt::obs::CObservation& observation,
+             const std::function<std::optional<Rigid3>(double)>& pose_at);
   int cameraOf(const struct CameraObservation& seen);
 
   MapBuilder& builder_;
   std::map<std::string, std::pair<int, PinholeCamera>> camera_of_label_;
   int images_ = 0;
   int images_without_pose_ = 0;
-  std::vector<std::string> problems_;
+  ProblemReport problems_;
 };
 
 }  // namespace vmcl

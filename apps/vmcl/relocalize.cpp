@@ -78,9 +78,12 @@ ExitCode run(const Arguments& arguments) {
   const Relocalizer relocalizer(std::make_shared<const KeyframeMap>(loadMap(arguments.map)), options);
   Trajectory groundtruth;
   if (!arguments.groundtruth.empty()) groundtruth = readTumTrajectory(arguments.groundtruth);
-  CameraStream stream("relocalize", arguments.rawlog);
+  CameraStream stream(arguments.rawlog);
   const std::vector<ImageResult> results = relocalizeAll(stream, relocalizer, groundtruth, arguments.threads);
-  if (results.empty()) throw std::runtime_error(arguments.rawlog + ": no camera image that can be used");
+  const ProblemReport& problems = stream.problems();
+  if (results.empty())
+    throw std::runtime_error(problems.empty() ? arguments.rawlog + ": no camera images" : problems.inOneLine());
+  problems.print("relocalize");
   if (!arguments.out.empty()) {
     const std::filesystem::path directory = arguments.out;
     std::filesystem::create_directories(directory);
@@ -88,7 +91,7 @@ ExitCode run(const Arguments& arguments) {
     writeTiming(directory / "timing.csv", results);
   }
   printTable(results);
-  return stream.rejectedCount() > 0 ? exit_some_input_bad : exit_done;
+  return problems.empty() ? exit_done : exit_some_input_bad;
 }
 
 }  // namespace

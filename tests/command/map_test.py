@@ -17,9 +17,8 @@ class MapTest(CommandTest):
         self.assertIn("camera 'camera': 640x480", self.succeed('map', '--info', 'out.vmap'))
 
     def test_same_input_same_bytes(self):
-        for name in ('once', 'twice'):
-            self.succeed('map', SIMPLE_MAP, '-o', f'{name}.vmap')
-        self.assertEqual(self.path('once.vmap').read_bytes(), self.path('twice.vmap').read_bytes())
+        self.succeed('map', SIMPLE_MAP, '-o', 'again.vmap')
+        self.assertEqual(self.path('again.vmap').read_bytes(), (SAMPLE / 'sample.vmap').read_bytes())
 
     def test_broken_logs(self):
         for broken in (b'', b'garbage' * 1000, LOG.read_bytes()[:40], SIMPLE_MAP.read_bytes()):

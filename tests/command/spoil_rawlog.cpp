@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // usage: spoil_rawlog IN.rawlog HOW OUT.rawlog
-// Copies a log and spoils it on the way, HOW being one of the names in `spoilers`.
-#include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CObservation3DRangeScan.h>
+// Copies a log of single observations and spoils it on the way, HOW being a key of `spoilers`.
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CRawlog.h>
@@ -16,70 +14,32 @@
 
 namespace {
 
-using namespace mrpt::obs;
+using mrpt::obs::CObservationImage;
+using mrpt::obs::CObservationOdometry;
+using mrpt::obs::CRawlog;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-using SpoilImage = std::function<void(mrpt::img::CImage&, mrpt::img::TCamera&)>;
-
-void spoilCamera(CObservation& observation, const SpoilImage& spoil) {
-  if (auto* camera = dynamic_cast<CObservationImage*>(&observation)) spoil(camera->image, camera->cameraParams);
-  if (auto* depth_camera = dynamic_cast<CObservation3DRangeScan*>(&observation)) {
-    spoil(depth_camera->intensityImage, depth_camera->cameraParamsIntensity);
-    depth_camera->cameraParams = depth_camera->cameraParamsIntensity;
-  }
-}
-
-void spoilMount(CObservation& observation) {
-  if (dynamic_cast<CObservationImage*>(&observation) || dynamic_cast<CObservation3DRangeScan*>(&observation))
-    observation.setSensorPose(mrpt::poses::CPose3D(nan, 0, 0));
-}
-
-void spoilOdometry(CObservation& observation) {
-  if (auto* odometry = dynamic_cast<CObservationOdometry*>(&observation)) odometry->odometry.x(nan);
-}
-
-void spoilMovement(CActionCollection& actions) {
-  if (const auto movement = actions.getBestMovementEstimation()) movement->rawOdometryIncrementReading.x(nan);
-}
-
-const std::map<std::string, std::function<void(CObservation&)>> spoilers = {
-    {"no_intrinsics",
-     [](CObservation& o) { spoilCamera(o, [](auto&, auto& camera) { camera = mrpt::img::TCamera(); }); }},
-    {"nan_intrinsics", [](CObservation& o) { spoilCamera(o, [](auto&, auto& camera) { camera.fx(nan); }); }},
-    {"missing_image",
-     [](CObservation& o) {
-       spoilCamera(o, [](auto& image, auto&) { image.setExternalStorage("missing.jpg"); });
-     }},
-    {"garbage_image",
-     [](CObservation& o) {
-       spoilCamera(o, [](auto& image, auto&) { image.setExternalStorage("garbage.jpg"); });
-     }},
-    {"nan_mount", spoilMount},
-    {"nan_odometry", spoilOdometry},
-};
-
-bool isCamera(const CObservation::Ptr& observation) {
-  return observation->sensorLabel == "camera";
+template <typename Observation>
+std::function<void(CRawlog&)> each(void (*spoil)(Observation&)) {
+  return [spoil](CRawlog& log) {
+    for (std::size_t i = 0; i < log.size(); ++i)
+      if (const auto observation = std::dynamic_pointer_cast<Observation>(log.getAsGeneric(i))) spoil(*observation);
+  };
 }
 
 void removeCamera(CRawlog& log) {
-  for (std::size_t i = log.size(); i-- > 0;) {
-    const auto observation = std::dynamic_pointer_cast<CObservation>(log.getAsGeneric(i));
-    if (observation && isCamera(observation)) log.remove(i);
-  }
+  for (std::size_t i = log.size(); i-- > 0;)
+    if (std::dynamic_pointer_cast<CObservationImage>(log.getAsGeneric(i))) log.remove(i);
 }
 
-void spoilLog(CRawlog& log, const std::string& how) {
-  const auto& spoil = spoilers.at(how);
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    const auto entry = log.getAsGeneric(i);
-    if (auto observation = std::dynamic_pointer_cast<CObservation>(entry)) spoil(*observation);
-    if (auto frame = std::dynamic_pointer_cast<CSensoryFrame>(entry))
-      for (const auto& observation : *frame) spoil(*observation);
-    auto actions = std::dynamic_pointer_cast<CActionCollection>(entry);
-    if (actions && how == "nan_odometry") spoilMovement(*actions);
-  }
-}
+const std::map<std::string, std::function<void(CRawlog&)>> spoilers = {
+    {"no_camera", removeCamera},
+    {"no_intrinsics", each<CObservationImage>([](auto& o) { o.cameraParams = {}; })},
+    {"nan_intrinsics", each<CObservationImage>([](auto& o) { o.cameraParams.fx(nan); })},
+    {"nan_mount", each<CObservationImage>([](auto& o) { o.setSensorPose(mrpt::poses::CPose3D(nan, 0, 0)); })},
+    {"missing_image", each<CObservationImage>([](auto& o) { o.image.setExternalStorage("missing.jpg"); })},
+    {"nan_odometry", each<CObservationOdometry>([](auto& o) { o.odometry.x(nan); })},
+};
 
 }  // namespace
 
@@ -89,6 +49,6 @@ int main(int argc, char** argv) {
     std::cerr << "usage: spoil_rawlog IN.rawlog HOW OUT.rawlog\n";
     return 2;
   }
-  spoilLog(log, argv[2]);
+  spoilers.at(argv[2])(log);
   return log.saveToRawLogFile(argv[3]) ? 0 : 1;
 }
