@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/initializer.h>
+#include <mrpt/img/CImage.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <stdexcept>
@@ -43,7 +44,9 @@ void VisualKeyframeMap::TMapDefinition::dumpToTextStream_map_specific(std::ostre
 }
 
 CMetricMap* VisualKeyframeMap::internal_CreateFromMapDefinition(const mrpt::maps::TMetricMapInitializer& definition) {
-  return new VisualKeyframeMap(dynamic_cast<const TMapDefinition&>(definition).options);
+  const VisualMapOptions& options = dynamic_cast<const TMapDefinition&>(definition).options;
+  if (!options.image_directory.empty()) mrpt::img::CImage::setImagesPathBase(options.image_directory);
+  return new VisualKeyframeMap(options);
 }
 
 uint8_t VisualKeyframeMap::serializeGetVersion() const { return 0; }

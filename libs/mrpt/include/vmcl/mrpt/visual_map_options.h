@@ -21,6 +21,8 @@ namespace vmcl {
 /// apart, where an image tells millimetres.
 struct VisualMapOptions {
   std::string map_file;            ///< [.._creationOpts] a .vmap; empty: the map is built from inserted images
+  std::string image_directory;     ///< [.._creationOpts] where a log's outside images lie, for stock programs, which do
+                                   ///< not look in <rawlog>_Images; sets MRPT's process-wide base directory of images
   double particle_sigma_px = 8;    ///< [.._likelihoodOpts] pixel noise when particles are weighed
   double effective_matches = 20;   ///< [.._likelihoodOpts] independent matches that an image counts as, at most
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/visual_keyframe_map.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <limits>
+
+#include "../datasets/scratch_directory.h"
+#include "../relocalization/synthetic_room.h"
+#include "vmcl/mapping/map_file.h"
+
+namespace vmcl {
+namespace {
+
+using mrpt::obs::CObservationImage;
+
+mrpt::poses::CPose3D mrptPose(const Rigid3& pose) {
+  return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(Eigen::Matrix4d(pose.matrix())));
+}
+
+mrpt::poses::CPose3D mrptPose(const PlanarPose& pose) { return {pose.x, pose.y, 0, pose.phi, 0, 0}; }
+
+class VisualKeyframeMapTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { content_ = std::make_shared<const KeyframeMap>(mapOf(room_)); }
+  static void TearDownTestSuite() { content_.reset(); }
+
+  static CObservationImage imageFrom(const PlanarPose& robot_in_map) {
+    const Image seen = room_.look(robot_in_map, SyntheticRoom::mount());
+    CObservationImage observation;
+    observation.sensorLabel = "front";
+    static double time = 1000;  // a new one for each image, as the map tells images apart by it
+    observation.timestamp = mrpt::Clock::fromDouble(time++);
+    Image pixels = seen;
+    observation.image.loadFromMemoryBuffer(seen.width, seen.height, false, pixels.pixels.data());
+    const PinholeCamera camera = SyntheticRoom::calibration().pinhole;
+    observation.cameraParams.ncols = static_cast<uint32_t>(camera.width);
+    observation.cameraParams.nrows = static_cast<uint32_t>(camera.height);
+    observation.cameraParams.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
+    observation.cameraPose = mrptPose(SyntheticRoom::mount());
+    return observation;
+  }
+
+  static double logLikelihood(const VisualKeyframeMap& map, const mrpt::obs::CObservation& observation,
+                              const PlanarPose& robot_in_map) {
+    return map.computeObservationLikelihood(observation, mrptPose(robot_in_map));
+  }
+
+  /// The truth is likelier than anything a little off, and far likelier than what is far off.
+  static void expectPeakAt(const PlanarPose& truth, const VisualKeyframeMap& map, const CObservationImage& image) {
+    const double at_truth = logLikelihood(map, image, truth);
+    for (const double step : {0.15, -0.15}) {
+      EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x + step, truth.y, truth.phi}));
+      EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y + step, truth.phi}));
+      EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + step}) + 5);
+    }
+    EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + 2}) + 20);
+  }
+
+  inline static const SyntheticRoom room_;
+  inline static std::shared_ptr<const KeyframeMap> content_;
+  const PlanarPose truth_{0.15, -0.25, 0.12};
+};
+
+TEST_F(VisualKeyframeMapTest, IsKnownToMrpt) {
+  EXPECT_NE(mrpt::rtti::findRegisteredClass("vmcl::VisualKeyframeMap"), nullptr);
+  const std::unique_ptr<mrpt::maps::TMetricMapInitializer> definition(
+      mrpt::maps::TMetricMapInitializer::factory("visualKeyframes"));
+  ASSERT_TRUE(definition);
+  mrpt::maps::TSetOfMetricMapInitializers definitions;
+  definitions.push_back(
+      mrpt::maps::TMetricMapInitializer::Ptr(mrpt::maps::TMetricMapInitializer::factory("vmcl::VisualKeyframeMap")));
+  const mrpt::maps::CMultiMetricMap maps(definitions);
+  EXPECT_TRUE(maps.mapByClass<VisualKeyframeMap>());
+}
+
+TEST_F(VisualKeyframeMapTest, LikelihoodPeaksAtTheTruth) {
+  const VisualKeyframeMap map({}, content_);
+  for (const PlanarPose& truth : {truth_, PlanarPose{-0.1, 0.2, 3.0}}) expectPeakAt(truth, map, imageFrom(truth));
+}
+
+TEST_F(VisualKeyframeMapTest, AnImageCountsAsAFewMatches) {
+  VisualMapOptions options;
+  options.effective_matches = 20;
+  const VisualKeyframeMap map(options, content_), half(
+                                                      [&] {
+                                                        options.effective_matches = 10;
+                                                        return options;
+                                                      }(),
+                                                      content_);
+  const CObservationImage image = imageFrom(truth_);
+  EXPECT_NEAR(logLikelihood(map, image, truth_), 2 * logLikelihood(half, image, truth_), 1e-9);
+  // At most log(1 + 0.3 * 320 * 240 / (2 pi 8^2)) for each of twenty.
+  EXPECT_LT(logLikelihood(map, image, truth_), 20 * std::log(1 + 0.3 * 320 * 240 / (2 * std::numbers::pi * 64)));
+  EXPECT_GT(logLikelihood(map, image, truth_), 20);
+}
+
+TEST_F(VisualKeyframeMapTest, OtherObservationsSayNothing) {
+  const VisualKeyframeMap map({}, content_);
+  const mrpt::obs::CObservation2DRangeScan scan;
+  EXPECT_FALSE(map.canComputeObservationLikelihood(scan));
+  EXPECT_EQ(logLikelihood(map, scan, truth_), 0);
+}
+
+TEST_F(VisualKeyframeMapTest, NothingNonFiniteComesOut) {
+  const VisualKeyframeMap map({}, content_);
+  const CObservationImage image = imageFrom(truth_);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300})
+    EXPECT_TRUE(std::isfinite(logLikelihood(map, image, {bad, 0, 0})));
+}
+
+TEST_F(VisualKeyframeMapTest, ACameraOfTheMapKeepsItsMount) {
+  const VisualKeyframeMap map({}, content_);
+  CObservationImage image = imageFrom(truth_);
+  image.cameraPose = mrptPose(SyntheticRoom::mount(1.0));  // as a log may wrongly say
+  expectPeakAt(truth_, map, image);
+  image.sensorLabel = "other";  // now the log is believed
+  EXPECT_LT(logLikelihood(map, image, truth_), 5);
+  EXPECT_GT(logLikelihood(map, image, truth_ * inverse(planarPart(toRigid3({0, 0, 1.0})))), 20);
+}
+
+TEST_F(VisualKeyframeMapTest, ANewImageInTheSameObjectIsSeen) {
+  const VisualKeyframeMap map({}, content_);
+  CObservationImage image = imageFrom(truth_);
+  expectPeakAt(truth_, map, image);
+  const PlanarPose next{0.3, 0, -0.1};
+  image = imageFrom(next);
+  expectPeakAt(next, map, image);
+}
+
+TEST_F(VisualKeyframeMapTest, ManyPosesAtOnceAsOneByOne) {
+  const VisualKeyframeMap map({}, content_);
+  const CObservationImage image = imageFrom(truth_);
+  std::vector<PlanarPose> poses;
+  Random random(1);
+  for (int i = 0; i < 101; ++i) poses.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)});
+  std::vector<double> one(poses.size(), 1), three(poses.size(), 1);
+  map.addLogLikelihoods(image, poses, 1, one);
+  map.addLogLikelihoods(image, poses, 3, three);
+  EXPECT_EQ(one, three);
+  for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(one[i], 1 + logLikelihood(map, image, poses[i]));
+}
+
+TEST_F(VisualKeyframeMapTest, RelocalizesByTheImageAlone) {
+  const VisualKeyframeMap map({}, content_);
+  const PoseEstimate estimate = map.relocalize(imageFrom(truth_));
+  ASSERT_TRUE(estimate.found()) << estimate.reason;
+  EXPECT_NEAR(estimate.modes[0].robot_in_map.x, truth_.x, 0.03);
+  EXPECT_NEAR(estimate.modes[0].robot_in_map.phi, truth_.phi, 0.01);
+}
+
+TEST_F(VisualKeyframeMapTest, BrokenImagesAreNamedAndSayNothing) {
+  const VisualKeyframeMap map({}, content_);
+  CObservationImage image = imageFrom(truth_);
+  image.cameraParams.ncols = 100;
+  EXPECT_EQ(logLikelihood(map, image, truth_), 0);
+  std::vector<double> sums(1, 7);
+  map.addLogLikelihoods(image, {&truth_, 1}, 1, sums);
+  EXPECT_EQ(sums[0], 7);
+  try {
+    map.relocalize(image);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("'front'"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(VisualKeyframeMapTest, SurvivesAStream) {
+  VisualMapOptions options;
+  options.particle_sigma_px = 5.25;
+  options.relocalizer.retrieved = 2;
+  const VisualKeyframeMap map(options, content_);
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << map;
+  stream.Seek(0);
+  const auto copy = std::dynamic_pointer_cast<VisualKeyframeMap>(archive.ReadObject());
+  ASSERT_TRUE(copy);
+  EXPECT_EQ(encodeMap(*copy->content()), encodeMap(*content_));
+  EXPECT_EQ(copy->visualOptions().particle_sigma_px, 5.25);
+  EXPECT_EQ(copy->visualOptions().relocalizer.retrieved, 2);
+  const CObservationImage image = imageFrom(truth_);
+  EXPECT_EQ(logLikelihood(*copy, image, truth_), logLikelihood(map, image, truth_));
+}
+
+TEST_F(VisualKeyframeMapTest, IsEmptyUntilFilled) {
+  VisualKeyframeMap map;
+  EXPECT_TRUE(map.isEmpty());
+  EXPECT_EQ(map.content(), nullptr);
+  EXPECT_EQ(logLikelihood(map, imageFrom(truth_), truth_), 0);
+  EXPECT_FALSE(map.relocalize(imageFrom(truth_)).found());
+}
+
+TEST_F(VisualKeyframeMapTest, IsBuiltFromASimplemap) {
+  mrpt::maps::CSimpleMap drive;
+  for (int i = 0; i < 8; ++i) {
+    const PlanarPose pose{0.15 * i - 0.5, 0.1 * i - 0.4, 0.03 * i};
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(CObservationImage::Create(imageFrom(pose)));
+    drive.insert(mrpt::poses::CPose3DPDFGaussian::Create(mrptPose(pose)), frame);
+  }
+  VisualKeyframeMap map;
+  map.loadFromProbabilisticPosesAndObservations(drive);
+  ASSERT_FALSE(map.isEmpty());
+  ASSERT_TRUE(map.content());
+  EXPECT_GT(map.content()->keyframes.size(), 4U);
+  EXPECT_GT(map.content()->landmarks.size(), 20U);
+  expectPeakAt(truth_, map, imageFrom(truth_));
+  map.clear();
+  EXPECT_TRUE(map.isEmpty());
+}
+
+TEST_F(VisualKeyframeMapTest, AMapFromAFileStaysAsItIs) {
+  const ScratchDirectory scratch;
+  VisualMapOptions options;
+  options.map_file = (scratch.path() / "room.vmap").string();
+  EXPECT_THROW(VisualKeyframeMap{options}, std::runtime_error);
+  saveMap(options.map_file, *content_);
+  VisualKeyframeMap map(options);
+  EXPECT_FALSE(map.insertObservation(imageFrom(truth_)));
+  map.clear();
+  ASSERT_FALSE(map.isEmpty());
+  expectPeakAt(truth_, map, imageFrom(truth_));
+  map.saveMetricMapRepresentationToFile((scratch.path() / "again").string());
+  EXPECT_EQ(encodeMap(loadMap(scratch.path() / "again.vmap")), encodeMap(*content_));
+}
+
+TEST_F(VisualKeyframeMapTest, ShowsLandmarksAndKeyframes) {
+  const VisualKeyframeMap map({}, content_);
+  const auto scene = map.getVisualization();
+  EXPECT_TRUE(scene->getByName("landmarks"));
+  EXPECT_TRUE(scene->getByName("keyframes"));
+}
+
+}  // namespace
+}  // namespace vmcl
