@@ -127,15 +127,4 @@ cv::Mat SceneRenderer::render(const Rigid3& map_from_camera) {
   return coarse;
 }
 
-cv::Mat SceneRenderer::renderDepth(const Rigid3& map_from_camera) {
-  state_->look(map_from_camera);
-  mrpt::math::CMatrixFloat depth;
-  state_->renderer->render_depth(state_->scene, depth);
-  cv::Mat coarse(depth.rows() / fineness, depth.cols() / fineness, CV_32F);
-  for (int row = 0; row < coarse.rows; ++row)
-    for (int column = 0; column < coarse.cols; ++column)
-      coarse.at<float>(row, column) = depth(fineness * row + fineness / 2, fineness * column + fineness / 2);
-  return coarse;
-}
-
 }  // namespace vmcl

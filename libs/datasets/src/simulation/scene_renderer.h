@@ -20,9 +20,6 @@ class SceneRenderer {
   /// BGR, drawn twice as fine and averaged.
   cv::Mat render(const Rigid3& map_from_camera);
 
-  /// Depth along the optical axis (m, CV_32F), 0 where nothing is seen.
-  cv::Mat renderDepth(const Rigid3& map_from_camera);
-
  private:
   struct State;
   std::unique_ptr<State> state_;

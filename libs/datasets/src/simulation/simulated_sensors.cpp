@@ -7,7 +7,12 @@
 namespace vmcl {
 namespace {
 
-enum Stream : uint64_t { odometry_stream = 1, laser_stream, camera_stream };
+enum Stream : uint64_t { odometry_stream, laser_stream, camera_stream, stream_count };
+
+/// The generator for one reading of a sensor.
+Random readingRandom(uint64_t seed, Stream stream, double time) {
+  return Random(seed, static_cast<uint64_t>(std::llround(time * 1e6)) * stream_count + stream);
+}
 
 Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
   Rigid3 rigid = Rigid3::Identity();
@@ -26,9 +31,8 @@ void addNoise(cv::Mat& image, double sigma, Random& random) {
 
 SimulatedSensors::SimulatedSensors(const SimulationSetup& setup, uint64_t seed)
     : setup_(setup),
+      seed_(seed),
       odometry_(setup.odometry.noise, Random(seed, odometry_stream)),
-      laser_random_(seed, laser_stream),
-      camera_random_(seed, camera_stream),
       renderer_(setup.scene, setup.session.light, setup.texture_seed, setup.camera.pinhole) {}
 
 mrpt::obs::CObservationOdometry SimulatedSensors::odometry(double time, const PlanarPose& map_from_robot) {
@@ -40,11 +44,12 @@ mrpt::obs::CObservationOdometry SimulatedSensors::odometry(double time, const Pl
   return observation;
 }
 
-mrpt::obs::CObservation2DRangeScan SimulatedSensors::laser(double time, const PlanarPose& map_from_robot) {
+mrpt::obs::CObservation2DRangeScan SimulatedSensors::laser(double time, const PlanarPose& map_from_robot) const {
   const LaserModel& model = setup_.laser.model;
   const mrpt::poses::CPose3D& mount = setup_.laser.robot_from_laser;
   const PlanarPose map_from_laser = map_from_robot * PlanarPose{mount.x(), mount.y(), mount.yaw()};
-  const auto ranges = scan(setup_.scene.solids, model, map_from_laser, mount.z(), laser_random_);
+  Random random = readingRandom(seed_, laser_stream, time);
+  const auto ranges = scan(setup_.scene.solids, model, map_from_laser, mount.z(), random);
   mrpt::obs::CObservation2DRangeScan observation;
   observation.sensorLabel = "laser";
   observation.timestamp = mrpt::Clock::fromDouble(time);
@@ -73,9 +78,10 @@ mrpt::obs::CObservationImage SimulatedSensors::camera(double time) const {
   return observation;
 }
 
-cv::Mat SimulatedSensors::image(const PlanarPose& map_from_robot) {
+cv::Mat SimulatedSensors::image(double time, const PlanarPose& map_from_robot) {
   cv::Mat image = renderer_.render(toRigid3(map_from_robot) * rigidOf(setup_.camera.robot_from_camera));
-  addNoise(image, setup_.camera.sigma_grey, camera_random_);
+  Random random = readingRandom(seed_, camera_stream, time);
+  addNoise(image, setup_.camera.sigma_grey, random);
   return image;
 }
 

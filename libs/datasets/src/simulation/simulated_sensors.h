@@ -12,25 +12,24 @@
 
 namespace vmcl {
 
-/// What the sensors of a setup measure at a true pose. Each has a generator of its own: one sensor's readings do not
-/// depend on how often another is asked.
+/// What the sensors of a setup measure at a true pose. The noise of laser and camera depends on seed and time alone;
+/// odometry adds up and wants to be asked in order.
 class SimulatedSensors {
  public:
   /// Throws std::runtime_error when off-screen drawing is not possible.
   SimulatedSensors(const SimulationSetup& setup, uint64_t seed);
 
   mrpt::obs::CObservationOdometry odometry(double time, const PlanarPose& map_from_robot);
-  mrpt::obs::CObservation2DRangeScan laser(double time, const PlanarPose& map_from_robot);
+  mrpt::obs::CObservation2DRangeScan laser(double time, const PlanarPose& map_from_robot) const;
 
   /// The observation without its image, and the image (BGR).
   mrpt::obs::CObservationImage camera(double time) const;
-  cv::Mat image(const PlanarPose& map_from_robot);
+  cv::Mat image(double time, const PlanarPose& map_from_robot);
 
  private:
   const SimulationSetup& setup_;
+  uint64_t seed_;
   WheelOdometry odometry_;
-  Random laser_random_;
-  Random camera_random_;
   SceneRenderer renderer_;
 };
 

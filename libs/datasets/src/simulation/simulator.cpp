@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "simulated_sensors.h"
@@ -27,10 +28,10 @@ struct Reading {
 };
 
 /// All readings of a drive by time.
-std::vector<Reading> schedule(const SimulationSetup& setup, double duration) {
+std::vector<Reading> schedule(const SimulationSetup& setup, double end_time) {
   std::vector<Reading> readings;
   const auto add = [&](Sensor sensor, double rate) {
-    for (int i = 0; i / rate <= duration; ++i) readings.push_back({start_time + i / rate, sensor});
+    for (int i = 0; start_time + i / rate <= end_time; ++i) readings.push_back({start_time + i / rate, sensor});
   };
   add(Sensor::odometry, setup.odometry.rate);
   add(Sensor::laser, setup.laser.rate);
@@ -68,14 +69,14 @@ class MapFrames {
 
   int count() const { return static_cast<int>(map_.size()); }
 
-  void save(const std::filesystem::path& file) const {
-    AtomicFile out(file);
+  /// Throws std::runtime_error when there is no room.
+  void save(AtomicFile& file) const {
     const bool raw_images = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);  // a tenth of the size
-    const bool saved = map_.saveToFile(out.temporaryPath());
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);  // a quarter of the size
+    const bool saved = map_.saveToFile(file.temporaryPath());
     mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(raw_images);
-    if (!saved) throw std::runtime_error(file.string() + ": cannot be written");
-    out.commit();
+    if (!saved) throw std::runtime_error(file.temporaryPath().string() + ": cannot be written");
+    file.commit();
   }
 
  private:
@@ -97,6 +98,59 @@ double length(const Trajectory& path) {
   return way;
 }
 
+/// What a drive leaves behind.
+class Recording {
+ public:
+  Recording(const SimulationSetup& setup, const std::filesystem::path& log, const SimulationOptions& options)
+      : sensors_(setup, options.seed), log_(log), writer_(log) {
+    if (!options.simplemap.empty()) simplemap_.emplace(options.simplemap);
+  }
+
+  void take(const Reading& reading, const Rigid3& map_from_robot) {
+    switch (reading.sensor) {
+      case Sensor::odometry:
+        writer_.write(sensors_.odometry(reading.time, planarPart(map_from_robot)));
+        truth_.push_back({reading.time, map_from_robot});
+        ++report_.odometry_readings;
+        break;
+      case Sensor::laser:
+        writer_.write(sensors_.laser(reading.time, planarPart(map_from_robot)));
+        ++report_.scans;
+        break;
+      case Sensor::camera:
+        takeImage(reading.time, planarPart(map_from_robot));
+    }
+  }
+
+  SimulationReport finish(const Trajectory& path) {
+    if (simplemap_) map_frames_.save(*simplemap_);
+    writeTumTrajectory(rawlogCompanion(log_, ".groundtruth.tum"), Trajectory(truth_));
+    writer_.commit();
+    report_.map_frames = map_frames_.count();
+    report_.duration = path.poses().back().time - start_time;
+    report_.way = length(path);
+    return report_;
+  }
+
+ private:
+  void takeImage(double time, const PlanarPose& map_from_robot) {
+    const auto camera = sensors_.camera(time);
+    const cv::Mat image = sensors_.image(time, map_from_robot);
+    writer_.write(camera, encodedJpeg(image), ".jpg");
+    ++report_.images;
+    if (simplemap_ && map_frames_.isDue(map_from_robot))
+      map_frames_.add(map_from_robot, camera, image, sensors_.laser(time, map_from_robot));
+  }
+
+  SimulatedSensors sensors_;
+  std::filesystem::path log_;
+  RawlogWriter writer_;
+  std::optional<AtomicFile> simplemap_;
+  MapFrames map_frames_;
+  std::vector<StampedPose> truth_;
+  SimulationReport report_;
+};
+
 }  // namespace
 
 void SimulationOptions::check() const {
@@ -113,39 +167,13 @@ SimulationReport simulate(const std::filesystem::path& scene_file, const std::fi
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(scene_file.string() + ": session " + options.session + ": " + error.what());
   }
-  SimulationReport report;
-  report.duration = path.poses().back().time - start_time;
-  report.way = length(path);
-
-  SimulatedSensors sensors(setup, options.seed);
-  RawlogWriter writer(log);
-  MapFrames map_frames;
-  std::vector<StampedPose> truth;
-  for (const Reading& reading : schedule(setup, report.duration)) {
-    const Rigid3 pose = path.at(reading.time).value();
-    const PlanarPose map_from_robot = planarPart(pose);
-    if (reading.sensor == Sensor::odometry) {
-      writer.write(sensors.odometry(reading.time, map_from_robot));
-      truth.push_back({reading.time, pose});
-      ++report.odometry_readings;
-    } else if (reading.sensor == Sensor::laser) {
-      writer.write(sensors.laser(reading.time, map_from_robot));
-      ++report.scans;
-    } else {
-      const auto camera = sensors.camera(reading.time);
-      const cv::Mat image = sensors.image(map_from_robot);
-      writer.write(camera, encodedJpeg(image), ".jpg");
-      ++report.images;
-      if (!options.simplemap.empty() && map_frames.isDue(map_from_robot))
-        map_frames.add(map_from_robot, camera, image, sensors.laser(reading.time, map_from_robot));
-    }
-    if (progress) progress((reading.time - start_time) / std::max(report.duration, 1e-9));
+  const double end_time = path.poses().back().time;
+  Recording recording(setup, log, options);
+  for (const Reading& reading : schedule(setup, end_time)) {
+    recording.take(reading, path.at(reading.time).value());
+    if (progress) progress((reading.time - start_time) / std::max(end_time - start_time, 1e-9));
   }
-  writeTumTrajectory(rawlogCompanion(log, ".groundtruth.tum"), Trajectory(truth));
-  if (!options.simplemap.empty()) map_frames.save(options.simplemap);
-  report.map_frames = map_frames.count();
-  writer.commit();
-  return report;
+  return recording.finish(path);
 }
 
 }  // namespace vmcl

@@ -13,7 +13,7 @@ struct SimulationOptions {
   std::string session;                                        ///< one of those of the scene file
   uint64_t seed = 1;                                          ///< of the sensors' noise
   double duration = std::numeric_limits<double>::infinity();  ///< at most this long (s)
-  std::filesystem::path simplemap;                            ///< also written, if not empty
+  std::filesystem::path simplemap = {};                       ///< also written, if not empty
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
