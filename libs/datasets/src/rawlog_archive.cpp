@@ -11,8 +11,8 @@
 namespace vmcl {
 namespace {
 
-constexpr uint32_t max_items = 100'000;            // observations in a frame, actions in a collection
-constexpr uintptr_t max_stack_bytes = 256 * 1024;  // an observation of a real log needs a few kilobytes
+constexpr uint32_t max_items = 100'000;                      // observations in a frame, actions in a collection
+constexpr uintptr_t max_stack_bytes = uintptr_t{256} << 10;  // an observation of a real log needs a few kilobytes
 
 /// The innermost reason in MRPT's nested, many-lined texts.
 std::string reason(std::string text) {

@@ -21,8 +21,8 @@ struct RawlogEntry {
 /// rawlog-edit and RawLogViewer do; their names are turned into whole paths, so that no setting of the process is
 /// needed. Classes that are neither action, frame nor observation are skipped.
 ///
-/// A log from a stranger cannot overrun the stack or hold absurdly many observations, but MRPT sizes the arrays inside
-/// an observation as the log claims before it reads them: limit the process (ulimit -v) against that.
+/// Of a log from a stranger, absurd numbers of observations in an entry and endless nesting are refused. But MRPT sizes
+/// the arrays inside an observation as the log claims before it reads them: limit the process (ulimit -v) against that.
 class RawlogReader {
  public:
   /// Throws std::runtime_error naming the file: missing, or not a rawlog.
