@@ -46,7 +46,7 @@ void print(const MapBuildReport& report, const KeyframeMap& map, const PosedImag
     const Eigen::Vector3d& shift = report.mount_shift[i];
     std::cout << "camera '" << map.cameras[i].label << "': mount turned by roll " << turn_deg.x() << ", pitch "
               << turn_deg.y() << ", yaw " << turn_deg.z() << " deg, shifted by x " << shift.x() << ", y " << shift.y()
-              << " m\n";
+              << " m, focal length times " << report.focal_scale[i] << '\n';
   }
 }
 
@@ -110,6 +110,9 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--sigma-mount-shift", options.sigma_mount_shift,
                   "standard deviation of the given mount's x and y (m); 0: exact")
+      ->capture_default_str();
+  verb.add_option("--sigma-focal", options.sigma_focal,
+                  "standard deviation of the given focal length, relative; 0: exact")
       ->capture_default_str();
   verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")->capture_default_str();
 }

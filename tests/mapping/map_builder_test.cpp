@@ -75,7 +75,6 @@ TEST(MapBuilder, FindsTheMountAndTheLandmarks) {
   Recording recording;
   recording.mount_error = Eigen::Vector3d(2, -3, 1.5) * degree;
   MapBuilderOptions options = recording.builderOptions();
-  options.sigma_mount_shift = 0;
   const auto [map, report] = recording.build(options, 1);
 
   const Eigen::Vector3d mount_miss = report.mount_correction[0] - recording.mount_error;
@@ -118,7 +117,7 @@ TEST(MapBuilder, ExactPosesGiveHonestCovariances) {
   recording.sigma_position = recording.sigma_heading = 0;
   recording.outliers = 0;
   MapBuilderOptions options = recording.builderOptions();
-  options.sigma_mount_tilt = options.sigma_mount_shift = 0;
+  options.sigma_mount_tilt = options.sigma_focal = 0;
   const auto [map, report] = recording.build(options, 1);
   EXPECT_NEAR(mean(landmarkErrors(map, recording.room).nees), 3, 0.55);
   EXPECT_LT(report.mount_correction[0].norm(), 1e-4);
@@ -221,7 +220,8 @@ TEST(MapBuilderOptions, NameTheBadKey) {
       {"sigma_position", &MapBuilderOptions::sigma_position},
       {"sigma_heading", &MapBuilderOptions::sigma_heading},
       {"sigma_mount_tilt", &MapBuilderOptions::sigma_mount_tilt},
-      {"sigma_mount_shift", &MapBuilderOptions::sigma_mount_shift}};
+      {"sigma_mount_shift", &MapBuilderOptions::sigma_mount_shift},
+      {"sigma_focal", &MapBuilderOptions::sigma_focal}};
   for (const auto& [name, member] : keys) {
     for (double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
       MapBuilderOptions options;

@@ -52,6 +52,8 @@ Eigen::Vector3d AdjustmentNoise::mountRotationWeights() const {
 
 Eigen::Vector3d AdjustmentNoise::mountShiftWeights() const { return weights({mount_shift, mount_shift, 0}); }
 
+Eigen::Vector3d AdjustmentNoise::lensWeights() const { return weights({focal, 0, 0}); }
+
 void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   ceres::HuberLoss loss(huber_threshold);
   ceres::Problem::Options problem_options;
@@ -66,21 +68,24 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
     addPrior(problem, {given.x, given.y, nearest_phi}, noise.poseWeights(), poses[k].data());
     ordering->AddElementToGroup(poses[k].data(), 1);
   }
-  for (MountCorrection& mount : scene.mount_corrections) {
-    addPrior(problem, Eigen::Vector3d::Zero(), noise.mountRotationWeights(), mount.rotation.data());
-    addPrior(problem, Eigen::Vector3d::Zero(), noise.mountShiftWeights(), mount.shift.data());
-    ordering->AddElementToGroup(mount.rotation.data(), 1);
-    ordering->AddElementToGroup(mount.shift.data(), 1);
+  const auto addCorrection = [&](Eigen::Vector3d& correction, const Eigen::Vector3d& correction_weights) {
+    addPrior(problem, Eigen::Vector3d::Zero(), correction_weights, correction.data());
+    ordering->AddElementToGroup(correction.data(), 1);
+  };
+  for (CameraCorrection& correction : scene.corrections) {
+    addCorrection(correction.rotation, noise.mountRotationWeights());
+    addCorrection(correction.shift, noise.mountShiftWeights());
+    addCorrection(correction.lens, noise.lensWeights());
   }
   for (ScenePoint& point : scene.points) {
     for (const Observation& seen : point.track) {
       const auto k = static_cast<std::size_t>(seen.keyframe);
       const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
-      MountCorrection& mount = scene.mount_corrections[camera];
+      CameraCorrection& correction = scene.corrections[camera];
       auto* cost = new ReprojectionCost(  // owned by the problem
           new ReprojectionResidual{&scene.cameras[camera], scene.pixel(seen), noise.pixel});
-      problem.AddResidualBlock(cost, &loss, poses[k].data(), mount.rotation.data(), mount.shift.data(),
-                               point.point_in_map.data());
+      problem.AddResidualBlock(cost, &loss, poses[k].data(), correction.rotation.data(), correction.shift.data(),
+                               correction.lens.data(), point.point_in_map.data());
     }
     ordering->AddElementToGroup(point.point_in_map.data(), 0);
   }

@@ -12,6 +12,7 @@ struct AdjustmentNoise {
   double heading = 0.01;         ///< of the given robot poses (rad)
   double mount_rotation = 0.05;  ///< of the given mounts' roll, pitch and yaw (rad)
   double mount_shift = 0.02;     ///< of the given mounts' x and y (m)
+  double focal = 0.03;           ///< of the given focal lengths, relative
 
   /// 1 / sigma of the planar pose's (x, y, phi).
   Eigen::Vector3d poseWeights() const;
@@ -19,9 +20,11 @@ struct AdjustmentNoise {
   Eigen::Vector3d mountRotationWeights() const;
   /// 1 / sigma of a mount's (x, y, z).
   Eigen::Vector3d mountShiftWeights() const;
+  /// 1 / sigma of CameraCorrection::lens.
+  Eigen::Vector3d lensWeights() const;
 };
 
-/// Bundle adjustment: moves points, poses and mount corrections to the least robust sum of squared reprojection errors
+/// Bundle adjustment: moves points, poses and camera corrections to the least robust sum of squared reprojection errors
 /// and deviations from what was given, each in standard deviations. Deterministic.
 void adjust(Reconstruction& scene, const AdjustmentNoise& noise);
 

@@ -8,7 +8,7 @@
 
 #include "reprojection_residual.h"
 
-// With V the information of a point given the poses, W_b the coupling of pose or mount block b to it, and S the
+// With V the information of a point given the poses, W_b the coupling of pose or camera block b to it, and S the
 // information of all blocks with the points eliminated (Schur complement),
 //   covariance = V^-1 + sum over blocks a, b of (V^-1 W_a^T) S^-1_ab (V^-1 W_b^T)^T.
 
@@ -20,7 +20,7 @@ using Block = Eigen::Matrix3d;
 /// A point's part of the normal equations.
 struct PointEquations {
   Block information = Block::Zero();
-  std::map<int, Block> coupling;  // pose or mount block by point
+  std::map<int, Block> coupling;  // pose or camera block by point
 };
 
 /// The lower triangle of a symmetric matrix of 3x3 blocks.
@@ -50,11 +50,11 @@ class BlockMatrix {
   std::map<std::pair<int, int>, Block> entries_;
 };
 
-/// Numbers of the blocks that an observation depends on: keyframes, then for each camera rotation and shift.
-std::array<int, 3> blocksOf(const Reconstruction& scene, int keyframe) {
+/// Numbers of the blocks that an observation depends on: keyframes, then for each camera rotation, shift and lens.
+std::array<int, 4> blocksOf(const Reconstruction& scene, int keyframe) {
   const int camera = scene.keyframes[static_cast<std::size_t>(keyframe)].camera;
-  const int rotation = static_cast<int>(scene.keyframes.size()) + 2 * camera;
-  return {keyframe, rotation, rotation + 1};
+  const int rotation = static_cast<int>(scene.keyframes.size()) + 3 * camera;
+  return {keyframe, rotation, rotation + 1, rotation + 2};
 }
 
 PointEquations linearize(const Reconstruction& scene, const AdjustmentNoise& noise, const ScenePoint& point,
@@ -66,16 +66,17 @@ PointEquations linearize(const Reconstruction& scene, const AdjustmentNoise& noi
     const ReprojectionCost cost(new ReprojectionResidual{&scene.cameras[camera], scene.pixel(seen), noise.pixel});
     const PlanarPose& pose = scene.map_from_robot[k];
     const double pose_values[] = {pose.x, pose.y, pose.phi};
-    const double* values[] = {pose_values, scene.mount_corrections[camera].rotation.data(),
-                              scene.mount_corrections[camera].shift.data(), point.point_in_map.data()};
+    const CameraCorrection& correction = scene.corrections[camera];
+    const double* values[] = {pose_values, correction.rotation.data(), correction.shift.data(), correction.lens.data(),
+                              point.point_in_map.data()};
     Eigen::Vector2d residual;
-    std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 4> J;
-    double* jacobians[] = {J[0].data(), J[1].data(), J[2].data(), J[3].data()};
+    std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 5> J;
+    double* jacobians[] = {J[0].data(), J[1].data(), J[2].data(), J[3].data(), J[4].data()};
     cost.Evaluate(values, residual.data(), jacobians);
-    equations.information += J[3].transpose() * J[3];
-    const std::array<int, 3> blocks = blocksOf(scene, seen.keyframe);
-    for (std::size_t a = 0; a < 3; ++a) {
-      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[3];
+    equations.information += J[4].transpose() * J[4];
+    const std::array<int, 4> blocks = blocksOf(scene, seen.keyframe);
+    for (std::size_t a = 0; a < 4; ++a) {
+      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[4];
       for (std::size_t b = 0; b <= a; ++b) pose_information.add(blocks[a], blocks[b], J[a].transpose() * J[b]);
     }
   }
@@ -97,13 +98,14 @@ Block eliminate(PointEquations& equations, BlockMatrix& pose_information) {
 
 std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const AdjustmentNoise& noise) {
   const int keyframes = static_cast<int>(scene.keyframes.size());
-  const int blocks = keyframes + 2 * static_cast<int>(scene.cameras.size());
+  const int blocks = keyframes + 3 * static_cast<int>(scene.cameras.size());
   BlockMatrix pose_information(blocks);
   const auto squared = [](const Eigen::Vector3d& weights) { return Block(weights.cwiseAbs2().asDiagonal()); };
   for (int i = 0; i < keyframes; ++i) pose_information.add(i, i, squared(noise.poseWeights()));
-  for (int i = keyframes; i < blocks; i += 2) {
+  for (int i = keyframes; i < blocks; i += 3) {
     pose_information.add(i, i, squared(noise.mountRotationWeights()));
     pose_information.add(i + 1, i + 1, squared(noise.mountShiftWeights()));
+    pose_information.add(i + 2, i + 2, squared(noise.lensWeights()));
   }
 
   std::vector<Block> covariances;

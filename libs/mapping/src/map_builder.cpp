@@ -33,6 +33,7 @@ void MapBuilderOptions::check() const {
   require(isAtLeast(sigma_heading, 0), "sigma_heading", sigma_heading);
   require(isAtLeast(sigma_mount_tilt, 0), "sigma_mount_tilt", sigma_mount_tilt);
   require(isAtLeast(sigma_mount_shift, 0), "sigma_mount_shift", sigma_mount_shift);
+  require(isAtLeast(sigma_focal, 0), "sigma_focal", sigma_focal);
   require(words >= 1, "words", words);
 }
 
@@ -154,9 +155,10 @@ MapBuildReport report(const KeyframeMap& map, const Reconstruction& scene, int f
     for (const Sighting& seen : sightings(scene, point.track))
       errors.push_back(reprojectionError(seen, point.point_in_map));
   report.median_reprojection_px = median(std::move(errors));
-  for (const MountCorrection& mount : scene.mount_corrections) {
-    report.mount_correction.push_back(mount.rotation);
-    report.mount_shift.push_back(mount.shift);
+  for (const CameraCorrection& correction : scene.corrections) {
+    report.mount_correction.push_back(correction.rotation);
+    report.mount_shift.push_back(correction.shift);
+    report.focal_scale.push_back(1 + correction.lens[0]);
   }
   return report;
 }
@@ -169,7 +171,7 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   const BuildProgress report_progress = progress ? progress : [](std::string_view, double) {};
   Reconstruction scene;
   scene.cameras = state_->cameras;
-  scene.mount_corrections.resize(scene.cameras.size());
+  scene.corrections.resize(scene.cameras.size());
   scene.keyframes = std::exchange(state_->keyframes, {});
   for (const Keyframe& keyframe : scene.keyframes) scene.map_from_robot.push_back(planarPart(keyframe.map_from_robot));
   if (std::ranges::all_of(scene.keyframes, [](const Keyframe& keyframe) { return keyframe.features.size() == 0; }))
@@ -180,8 +182,11 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   KeyframeMap map;
   map.feature_options = options.features;
   map.cameras = scene.cameras;
-  for (int i = 0; i < std::ssize(map.cameras); ++i)
-    map.cameras[static_cast<std::size_t>(i)].robot_from_camera = scene.robotFromCamera(i);
+  for (int i = 0; i < std::ssize(map.cameras); ++i) {
+    MapCamera& camera = map.cameras[static_cast<std::size_t>(i)];
+    camera.calibration = scene.calibration(i);
+    camera.robot_from_camera = scene.robotFromCamera(i);
+  }
   map.keyframes = scene.keyframes;
   for (std::size_t k = 0; k < map.keyframes.size(); ++k)
     map.keyframes[k].map_from_robot = toRigid3(scene.map_from_robot[k]);

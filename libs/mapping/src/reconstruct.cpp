@@ -117,8 +117,8 @@ std::vector<int> featureCounts(const Reconstruction& scene) {
 }  // namespace
 
 AdjustmentNoise adjustmentNoise(const MapBuilderOptions& options) {
-  return {options.sigma_px, options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
-          options.sigma_mount_shift};
+  return {options.sigma_px,         options.sigma_position,    options.sigma_heading,
+          options.sigma_mount_tilt, options.sigma_mount_shift, options.sigma_focal};
 }
 
 void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const BuildProgress& progress) {

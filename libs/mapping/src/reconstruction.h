@@ -31,34 +31,44 @@ Eigen::Matrix<T, 3, 3> rotationFromRollPitchYaw(const Eigen::Matrix<T, 3, 1>& an
       .toRotationMatrix();
 }
 
-/// How a camera sits on the robot against where it was said to sit.
-struct MountCorrection {
+/// How a camera differs from what was given.
+struct CameraCorrection {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw about the robot axes (rad)
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< along the robot axes (m); z stays 0: driving on flat ground
                                                        ///< does not show it
+  Eigen::Vector3d lens = Eigen::Vector3d::Zero();      ///< relative change of the focal lengths; shift of the principal
+                                                       ///< point (px), which stays 0: it looks like a turn of the mount
 };
+
+/// The camera with its focal lengths scaled. The lens coefficients change so that the same ideal pixels belong to the
+/// same real ones.
+CameraCalibration withFocalLengthScaled(CameraCalibration calibration, double scale);
 
 /// What the builder knows of the scene and of where its keyframes were taken.
 struct Reconstruction {
-  std::vector<MapCamera> cameras;                  ///< with the mounts as given
-  std::vector<MountCorrection> mount_corrections;  ///< per camera
-  std::vector<Keyframe> keyframes;                 ///< with the poses as given
-  std::vector<PlanarPose> map_from_robot;          ///< per keyframe
+  std::vector<MapCamera> cameras;             ///< as given
+  std::vector<CameraCorrection> corrections;  ///< per camera
+  std::vector<Keyframe> keyframes;            ///< with the poses as given
+  std::vector<PlanarPose> map_from_robot;     ///< per keyframe
   std::vector<ScenePoint> points;
 
   Rigid3 robotFromCamera(int camera) const {
     const auto i = static_cast<std::size_t>(camera);
     Rigid3 corrected = cameras[i].robot_from_camera;
-    corrected.linear() = rotationFromRollPitchYaw(mount_corrections[i].rotation) * corrected.linear();
-    corrected.translation() += mount_corrections[i].shift;
+    corrected.linear() = rotationFromRollPitchYaw(corrections[i].rotation) * corrected.linear();
+    corrected.translation() += corrections[i].shift;
     return corrected;
+  }
+
+  CameraCalibration calibration(int camera) const {
+    const auto i = static_cast<std::size_t>(camera);
+    return withFocalLengthScaled(cameras[i].calibration, 1 + corrections[i].lens[0]);
   }
 
   ReferenceCamera view(int keyframe) const {
     const auto k = static_cast<std::size_t>(keyframe);
     const int camera = keyframes[k].camera;
-    return {cameras[static_cast<std::size_t>(camera)].calibration.pinhole,
-            toRigid3(map_from_robot[k]) * robotFromCamera(camera)};
+    return {calibration(camera).pinhole, toRigid3(map_from_robot[k]) * robotFromCamera(camera)};
   }
 
   Eigen::Vector2d pixel(const Observation& observation) const {

@@ -8,15 +8,15 @@
 namespace vmcl {
 
 /// Reprojection error in standard deviations, a function of the robot's planar pose (x, y, phi), the correction of
-/// the camera's mount (rotation, shift) and the point; for automatic differentiation by Ceres.
+/// the camera (mount rotation, mount shift, lens) and the point; for automatic differentiation by Ceres.
 struct ReprojectionResidual {
-  const MapCamera* camera;  ///< with the mount as given
+  const MapCamera* camera;  ///< as given
   Eigen::Vector2d pixel;
   double sigma_px;
 
   template <typename T>
-  bool operator()(const T* map_from_robot, const T* mount_rotation, const T* mount_shift, const T* point_in_map,
-                  T* residual) const {
+  bool operator()(const T* map_from_robot, const T* mount_rotation, const T* mount_shift, const T* lens,
+                  const T* point_in_map, T* residual) const {
     using Vector = Eigen::Matrix<T, 3, 1>;
     using std::cos, std::sin;
     const T c = cos(map_from_robot[2]), s = sin(map_from_robot[2]);
@@ -30,12 +30,13 @@ struct ReprojectionResidual {
     const PinholeCamera& pinhole = camera->calibration.pinhole;
     constexpr double min_depth = 1e-3;  // a point driven behind the camera stays there and is culled
     const T depth = p.z() > min_depth ? p.z() : T(min_depth);
-    residual[0] = (pinhole.fx * p.x() / depth + pinhole.cx - pixel.x()) / sigma_px;
-    residual[1] = (pinhole.fy * p.y() / depth + pinhole.cy - pixel.y()) / sigma_px;
+    const T focal_scale = 1.0 + lens[0];
+    residual[0] = (focal_scale * pinhole.fx * p.x() / depth + pinhole.cx + lens[1] - pixel.x()) / sigma_px;
+    residual[1] = (focal_scale * pinhole.fy * p.y() / depth + pinhole.cy + lens[2] - pixel.y()) / sigma_px;
     return true;
   }
 };
 
-using ReprojectionCost = ceres::AutoDiffCostFunction<ReprojectionResidual, 2, 3, 3, 3, 3>;
+using ReprojectionCost = ceres::AutoDiffCostFunction<ReprojectionResidual, 2, 3, 3, 3, 3, 3>;
 
 }  // namespace vmcl

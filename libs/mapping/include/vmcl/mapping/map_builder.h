@@ -20,7 +20,8 @@ struct MapBuilderOptions {
   double sigma_position = 0.02;     ///< prior of the given robot positions (m)
   double sigma_heading = 0.01;      ///< prior of the given robot headings (rad)
   double sigma_mount_tilt = 0.05;   ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
-  double sigma_mount_shift = 0.02;  ///< prior of the given mount's x and y (m); 0: exact
+  double sigma_mount_shift = 0.0;   ///< prior of the given mount's x and y (m); 0: exact
+  double sigma_focal = 0.03;        ///< prior of the given focal lengths, relative; 0: exact
   int words = 64;                   ///< vocabulary of place recognition
   uint64_t seed = 1;
 
@@ -38,6 +39,7 @@ struct MapBuildReport {
   double median_reprojection_px = 0;              ///< after adjustment
   std::vector<Eigen::Vector3d> mount_correction;  ///< per camera: roll, pitch, yaw turned about the robot axes (rad)
   std::vector<Eigen::Vector3d> mount_shift;       ///< per camera: along the robot axes (m)
+  std::vector<double> focal_scale;                ///< per camera: focal length over the given one
 };
 
 /// Called with the stage's name and the share done in [0, 1].
