@@ -48,6 +48,7 @@ void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, Imag
   const auto same = std::find_if(cameras.begin(), cameras.end(),
                                  [&](const MapCamera& of_map) { return of_map.label == camera->label; });
   if (same != cameras.end()) {
+    query.calibration = same->calibration;
     query.robot_from_camera = same->robot_from_camera;
     query.mask_rows_from_top = same->mask_rows_from_top;
   }
