@@ -19,6 +19,7 @@ void LikelihoodOptions::check() const {
 
 PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodOptions& likelihood_options)
     : options(likelihood_options),
+      inverse_depth_prior(inverseDepthPrior(problem)),
       query_cameras(problem.query_cameras),
       reference_cameras(problem.reference_cameras),
       match_count(static_cast<int>(problem.matches.size())) {
@@ -65,13 +66,13 @@ double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
   double sum = p.match_count * std::log(outlier);
   const double odds = prior / outlier;
   double product = 1;
-  const auto addRatio = [&](const auto&, const auto&, std::size_t, const auto& residual) {
+  const auto addRatio = [&](int, const MatchResidual& residual) {
     product *= 1 + odds * residual.likelihood_ratio;
     if (product < 1e200) return;
     sum += std::log(product);
     product = 1;
   };
-  p.visit(map_from_robot, addRatio, addRatio);
+  p.visit(map_from_robot, addRatio);
   return sum + std::log(product);
 }
 

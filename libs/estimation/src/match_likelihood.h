@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "inverse_depth_prior.h"
 #include "vmcl/estimation/likelihood.h"
 #include "vmcl/geometry/pose_problem.h"
 
@@ -27,106 +28,145 @@ inline Eigen::Matrix3d inverseIntrinsics(const PinholeCamera& camera) {
   return K;
 }
 
-/// A query camera looking at scene points from one pose of the robot.
-struct PointView {
-  Eigen::Matrix3d pixel_from_map;  ///< homogeneous pixel of a map point: pixel_from_map * X + offset
-  Eigen::Vector3d offset;
-  double sigma2;
-  double area;
+/// A match against one pose of the robot. The scene point is X = t + arm / scale, t the robot's position: moving the
+/// robot by dt and turning it about an axis w moves the predicted pixel by pixel_by_point * (arm x w - scale dt).
+struct MatchResidual {
+  Eigen::Vector2d pixel_error;  ///< predicted minus observed
+  Eigen::Matrix2d information;  ///< inverse of the error's covariance
+  Eigen::Matrix<double, 2, 3> pixel_by_point;
+  Eigen::Vector3d arm;
+  double scale = 1;
+  double likelihood_ratio = 0;  ///< p / u: density of the error over that of an outlier anywhere in the image
 
-  PointView(const QueryCamera& query, const Rigid3& map_from_robot, double sigma_px)
-      : sigma2(sigma_px * sigma_px), area(double(query.camera.width) * query.camera.height) {
+  /// From error, pixel_by_point and the covariance S of the error.
+  void setLikelihood(const Eigen::Matrix2d& S, double image_area) {
+    const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
+    information << S(1, 1), -S(0, 1), -S(1, 0), S(0, 0);
+    information /= determinant;
+    const double distance2 = pixel_error.dot(information * pixel_error);
+    likelihood_ratio = distance2 < max_distance2
+                           ? image_area * std::exp(-0.5 * distance2) / (2 * std::numbers::pi * std::sqrt(determinant))
+                           : 0;
+  }
+};
+
+/// A query camera at one pose of the robot, for matches with depth.
+class PointView {
+ public:
+  PointView(const QueryCamera& query, const Rigid3& map_from_robot, const LikelihoodOptions& options)
+      : position_(map_from_robot.translation()),
+        sigma2_(options.sigma_px * options.sigma_px),
+        area_(double(query.camera.width) * query.camera.height) {
     const Rigid3 map_from_camera = map_from_robot * query.robot_from_camera;
-    pixel_from_map.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
-    offset = -pixel_from_map * map_from_camera.translation();
+    pixel_from_map_.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
+    offset_ = -pixel_from_map_ * map_from_camera.translation();
   }
 
-  struct Residual {
-    Eigen::Vector2d pixel_error;  ///< predicted minus observed
-    Eigen::Matrix2d information;  ///< inverse of the residual's covariance
-    Eigen::Matrix<double, 2, 3> pixel_by_point;
-    double likelihood_ratio = 0;  ///< p / u; 0 behind the camera
-  };
-
+  /// Reprojection: the pixel noise plus the point's covariance carried into the image.
   void evaluate(const Eigen::Vector2d& pixel, const Eigen::Vector3d& point, const Eigen::Matrix3d& covariance,
-                Residual& result) const {
+                MatchResidual& result) const {
     result.likelihood_ratio = 0;
-    const Eigen::Vector3d h = pixel_from_map * point + offset;
+    const Eigen::Vector3d h = pixel_from_map_ * point + offset_;
     if (!(h.z() > min_depth)) return;
     const double inverse_depth = 1 / h.z();
     const Eigen::Vector2d predicted = h.head<2>() * inverse_depth;
     result.pixel_error = predicted - pixel;
-    result.pixel_by_point = (pixel_from_map.topRows<2>() - predicted * pixel_from_map.row(2)) * inverse_depth;
+    result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_depth;
+    result.arm = point - position_;
+    result.scale = 1;
     Eigen::Matrix2d S = result.pixel_by_point * covariance * result.pixel_by_point.transpose();
-    S(0, 0) += sigma2;
-    S(1, 1) += sigma2;
-    const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
-    result.information << S(1, 1), -S(0, 1), -S(1, 0), S(0, 0);
-    result.information /= determinant;
-    const double distance2 = result.pixel_error.dot(result.information * result.pixel_error);
-    if (!(distance2 < max_distance2)) return;
-    result.likelihood_ratio = area * std::exp(-0.5 * distance2) / (2 * std::numbers::pi * std::sqrt(determinant));
+    S.diagonal().array() += sigma2_;
+    result.setLikelihood(S, area_);
   }
+
+ private:
+  Eigen::Matrix3d pixel_from_map_;  // homogeneous pixel of a map point: pixel_from_map * X + offset
+  Eigen::Vector3d offset_;
+  Eigen::Vector3d position_;
+  double sigma2_;
+  double area_;
 };
 
-/// A query and a reference camera from one pose of the robot.
-struct EpipolarView {
-  Eigen::Matrix3d fundamental;  ///< query^T F reference = 0
-  Eigen::Matrix3d map_from_query_pixel;
-  Eigen::Matrix3d map_from_reference_pixel;
-  Eigen::Vector3d baseline;  ///< query centre minus reference centre, map frame
-  double sigma;
-  double width, height;
-
-  EpipolarView(const QueryCamera& query, const ReferenceCamera& reference, const Rigid3& map_from_robot,
-               double sigma_px)
-      : sigma(sigma_px), width(query.camera.width), height(query.camera.height) {
+/// A query and a reference camera at one pose of the robot, for matches without depth: the point lies somewhere on the
+/// reference ray and its inverse depth rho is marginalized out. Most points have an inverse depth as the prior says;
+/// the rest may lie anywhere along the epipolar line, whatever the baseline, so that a wrong prior cannot fix the
+/// scale.
+///
+/// Near infinity and at vanishing baseline, where the epipolar constraint alone fits any pose, the segment shrinks to
+/// the pixel noise and the match becomes one of bearings.
+class RayView {
+ public:
+  RayView(const QueryCamera& query, const ReferenceCamera& reference, const Rigid3& map_from_robot,
+          const LikelihoodOptions& options, const InverseDepthPrior& prior)
+      : reference_from_robot_(reference.map_from_camera.translation() - map_from_robot.translation()),
+        prior_(prior),
+        sigma2_(options.sigma_px * options.sigma_px),
+        area_(double(query.camera.width) * query.camera.height) {
     const Rigid3 map_from_camera = map_from_robot * query.robot_from_camera;
-    map_from_query_pixel.noalias() = map_from_camera.linear() * inverseIntrinsics(query.camera);
-    map_from_reference_pixel.noalias() = reference.map_from_camera.linear() * inverseIntrinsics(reference.camera);
-    baseline = map_from_camera.translation() - reference.map_from_camera.translation();
-    // Coplanar: f . (b x g) = 0.
-    Eigen::Matrix3d b_cross_g;
-    for (int k = 0; k < 3; ++k) b_cross_g.col(k) = baseline.cross(map_from_reference_pixel.col(k));
-    fundamental.noalias() = map_from_query_pixel.transpose() * b_cross_g;
+    pixel_from_map_.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
+    map_from_reference_pixel_.noalias() = reference.map_from_camera.linear() * inverseIntrinsics(reference.camera);
+    pixel_from_reference_pixel_.noalias() = pixel_from_map_ * map_from_reference_pixel_;
+    parallax_.noalias() = pixel_from_map_ * (reference.map_from_camera.translation() - map_from_camera.translation());
   }
 
-  struct Residual {
-    double sampson = 0;           ///< signed, pixels
-    double norm = 0;              ///< of the constraint's gradient over the four pixel coordinates
-    double likelihood_ratio = 0;  ///< p / u; 0 behind a camera
-  };
-
-  void evaluate(const Eigen::Vector2d& query_pixel, const Eigen::Vector2d& reference_pixel, Residual& result) const {
+  void evaluate(const Eigen::Vector2d& query_pixel, const Eigen::Vector2d& reference_pixel,
+                MatchResidual& result) const {
     result.likelihood_ratio = 0;
-    const Eigen::Vector3d line = fundamental.leftCols<2>() * reference_pixel + fundamental.col(2);
-    const Eigen::Vector2d back =
-        fundamental.topLeftCorner<2, 2>().transpose() * query_pixel + fundamental.row(2).head<2>().transpose();
-    const double constraint = line.head<2>().dot(query_pixel) + line.z();
-    const double query_norm2 = line.head<2>().squaredNorm();
-    const double norm2 = query_norm2 + back.squaredNorm();
-    if (!(norm2 > 0)) return;
-    const double distance2 = constraint * constraint / (norm2 * sigma * sigma);
-    if (!(distance2 < max_distance2) || !inFront(query_pixel, reference_pixel)) return;
-    result.norm = std::sqrt(norm2);
-    result.sampson = constraint / result.norm;
-    // An outlier falls anywhere in the query image; its Sampson residual spans the image's extent across the epipolar
-    // line, shrunk by the query's share of the gradient.
-    const double span = (width * std::abs(line.x()) + height * std::abs(line.y())) / result.norm;
-    result.likelihood_ratio = span * std::exp(-0.5 * distance2) / (std::sqrt(2 * std::numbers::pi) * sigma);
+    // The homogeneous query pixel of the point is a + rho * parallax.
+    const Eigen::Vector3d a =
+        pixel_from_reference_pixel_.leftCols<2>() * reference_pixel + pixel_from_reference_pixel_.col(2);
+    const double rho = nearestInverseDepth(query_pixel, a);
+    const Eigen::Vector3d h = a + rho * parallax_;
+    if (!(h.z() > std::max(rho * min_depth, 1e-3))) return;
+    const double inverse_z = 1 / h.z();
+    const Eigen::Vector2d predicted = h.head<2>() * inverse_z;
+    const Eigen::Vector2d by_rho = (parallax_.head<2>() - predicted * parallax_.z()) * inverse_z;
+    const Eigen::Matrix2d by_reference_pixel =
+        (pixel_from_reference_pixel_.topLeftCorner<2, 2>() - predicted * pixel_from_reference_pixel_.row(2).head<2>()) *
+        inverse_z;
+    Eigen::Matrix2d S = sigma2_ * by_reference_pixel * by_reference_pixel.transpose();
+    S.diagonal().array() += sigma2_;
+    result.pixel_error = predicted - query_pixel;
+    result.setLikelihood(S, area_);
+    if (result.likelihood_ratio <= 0) return;
+
+    const double rho_variance = 1 / (by_rho.dot(result.information * by_rho) + 1e-12);  // as this match measures it
+    result.likelihood_ratio *= alongSegment(rho, rho_variance, by_rho.squaredNorm());
+    // No information along the segment, but for the bearing of a point near infinity.
+    S += by_rho * by_rho.transpose() * (unknown_scale * rho * rho + rho_variance);
+    result.information = S.inverse();
+    result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_z;
+    result.arm = map_from_reference_pixel_ * reference_pixel.homogeneous() + rho * reference_from_robot_;
+    result.scale = rho;
   }
 
-  /// Whether the rays meet in front of both cameras; rays parallel within the pixel noise meet at infinity.
-  bool inFront(const Eigen::Vector2d& query_pixel, const Eigen::Vector2d& reference_pixel) const {
-    const Eigen::Vector3d f = map_from_query_pixel.leftCols<2>() * query_pixel + map_from_query_pixel.col(2);
-    const Eigen::Vector3d g =
-        map_from_reference_pixel.leftCols<2>() * reference_pixel + map_from_reference_pixel.col(2);
-    const Eigen::Vector3d n = f.cross(g);
-    const double parallel = sigma * map_from_query_pixel.col(0).norm();  // angle of one sigma
-    const double n2 = n.squaredNorm(), scale2 = f.squaredNorm() * g.squaredNorm();
-    if (n2 < 4 * parallel * parallel * scale2) return f.dot(g) > 0;
-    return baseline.cross(g).dot(n) < 0 && baseline.cross(f).dot(n) < 0;
+ private:
+  static constexpr double unknown_scale = 100;  // variance of the relative depth: unknown to a factor of 10
+  static constexpr double prior_share = 0.9;    // of the points that the prior describes
+  static constexpr double max_rho = 5;          // nothing is nearer to the reference than 0.2 m
+
+  /// Inverse depth in [0, max_rho] that comes nearest to the observed query ray.
+  double nearestInverseDepth(const Eigen::Vector2d& query_pixel, const Eigen::Vector3d& a) const {
+    const Eigen::Vector2d u = a.head<2>() - query_pixel * a.z(), v = parallax_.head<2>() - query_pixel * parallax_.z();
+    return std::clamp(-u.dot(v) / (v.squaredNorm() + 1e-12), 0.0, max_rho);
   }
+
+  /// Density at rho, smoothed by its measurement, over the peak of the measurement's density.
+  double alongSegment(double rho, double rho_variance, double by_rho2) const {
+    const double spread = rho_variance + prior_.sigma * prior_.sigma, off = rho - prior_.mean;
+    const double described = std::sqrt(rho_variance / spread) * std::exp(-0.5 * off * off / spread);
+    const double anywhere = std::min(std::sqrt(2 * std::numbers::pi * rho_variance * by_rho2 / area_), 1.0);
+    return prior_share * described + (1 - prior_share) * anywhere;
+  }
+
+  Eigen::Matrix3d pixel_from_map_;
+  Eigen::Matrix3d map_from_reference_pixel_;    // direction with depth 1 along the reference's optical axis
+  Eigen::Matrix3d pixel_from_reference_pixel_;  // of points at infinity
+  Eigen::Vector3d parallax_;
+  Eigen::Vector3d reference_from_robot_;
+  InverseDepthPrior prior_;
+  double sigma2_;
+  double area_;
 };
 
 }  // namespace vmcl

@@ -14,7 +14,6 @@ namespace {
 
 using Vector6 = PoseRefiner::Vector6;
 using Matrix6 = PoseRefiner::Matrix6;
-using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
 /// The axes in the map about which phi, pitch and roll turn the robot.
 struct TurnAxes {
@@ -24,14 +23,6 @@ struct TurnAxes {
       : phi(Eigen::Vector3d::UnitZ()),
         roll(pose.rigid().linear() * Eigen::Vector3d::UnitX()),
         pitch(-std::sin(pose.map_from_robot.phi), std::cos(pose.map_from_robot.phi), 0) {}
-
-  /// Derivatives over (x, y, phi, roll, pitch, height) of a quantity with the given derivative over the robot's
-  /// position and moment over a turn of the robot about an axis (d = moment . axis).
-  RowVector6 derivative(const Eigen::RowVector3d& by_position, const Eigen::RowVector3d& moment) const {
-    RowVector6 d;
-    d << by_position.x(), by_position.y(), moment * phi, moment * roll, moment * pitch, by_position.z();
-    return d;
-  }
 };
 
 /// Chance that a match is an inlier.
@@ -79,33 +70,20 @@ double PoseRefiner::objective(const RefinedPose& pose) const {
 
 PoseRefiner::Linearization PoseRefiner::linearize(const RefinedPose& pose) const {
   const auto& p = *likelihood_.prepared_;
-  const Rigid3 map_from_robot = pose.rigid();
   const TurnAxes axes(pose);
   Linearization sum;
-  const auto addPoint = [&](const PointView&, const PointGroup& group, std::size_t i, const PointView::Residual& r) {
-    // Moving or turning the robot moves the point the other way: d pixel = -J (dt + axis x (X - t)).
-    const Eigen::Matrix<double, 2, 3> by_turn =
-        r.pixel_by_point * crossMatrix(group.point_in_map[i] - map_from_robot.translation());
+  p.visit(pose.rigid(), [&](int, const MatchResidual& r) {
+    const Eigen::Matrix<double, 2, 3> by_turn = r.pixel_by_point * crossMatrix(r.arm);
     Eigen::Matrix<double, 2, 6> J;
-    for (int row = 0; row < 2; ++row) J.row(row) = axes.derivative(-r.pixel_by_point.row(row), by_turn.row(row));
+    J.leftCols<2>() = -r.scale * r.pixel_by_point.leftCols<2>();
+    J.col(2) = by_turn * axes.phi;
+    J.col(3) = by_turn * axes.roll;
+    J.col(4) = by_turn * axes.pitch;
+    J.col(5) = -r.scale * r.pixel_by_point.col(2);
     const double weight = responsibility(r.likelihood_ratio, p.options.inlier_prior);
     sum.gradient -= weight * J.transpose() * (r.information * r.pixel_error);
     sum.information += weight * J.transpose() * r.information * J;
-  };
-  const auto addRay = [&](const EpipolarView& view, const RayGroup& group, std::size_t i,
-                          const EpipolarView::Residual& r) {
-    const Eigen::Vector3d f = view.map_from_query_pixel * group.query_pixel[i].homogeneous();
-    const Eigen::Vector3d g = view.map_from_reference_pixel * group.reference_pixel[i].homogeneous();
-    const Eigen::Vector3d arm = map_from_robot.linear() *
-                                p.query_cameras[static_cast<std::size_t>(group.query)].robot_from_camera.translation();
-    const Eigen::Vector3d by_position = g.cross(f);  // the constraint is b . (g x f)
-    const Eigen::Vector3d moment = f.cross(view.baseline.cross(g)) + arm.cross(by_position);
-    const RowVector6 J = axes.derivative(by_position.transpose(), moment.transpose()) / r.norm;
-    const double weight = responsibility(r.likelihood_ratio, p.options.inlier_prior) / (view.sigma * view.sigma);
-    sum.gradient -= weight * r.sampson * J.transpose();
-    sum.information += weight * J.transpose() * J;
-  };
-  p.visit(map_from_robot, addPoint, addRay);
+  });
   return sum;
 }
 
@@ -166,10 +144,9 @@ std::vector<int> PoseRefiner::inliers(const RefinedPose& pose) const {
   const auto& p = *likelihood_.prepared_;
   const double even_ratio = (1 - p.options.inlier_prior) / p.options.inlier_prior;
   std::vector<int> result;
-  const auto collect = [&](const auto&, const auto& group, std::size_t i, const auto& residual) {
-    if (residual.likelihood_ratio > even_ratio) result.push_back(group.match[i]);
-  };
-  p.visit(pose.rigid(), collect, collect);
+  p.visit(pose.rigid(), [&](int match, const MatchResidual& residual) {
+    if (residual.likelihood_ratio > even_ratio) result.push_back(match);
+  });
   std::sort(result.begin(), result.end());
   return result;
 }

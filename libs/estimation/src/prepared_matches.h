@@ -32,32 +32,31 @@ struct PoseLikelihood::Prepared {
   Prepared(const PoseProblem& problem, const LikelihoodOptions& options);
 
   LikelihoodOptions options;
+  InverseDepthPrior inverse_depth_prior;
   std::vector<QueryCamera> query_cameras;
   std::vector<ReferenceCamera> reference_cameras;
   std::vector<PointGroup> point_groups;
   std::vector<RayGroup> ray_groups;
   int match_count = 0;
 
-  /// Evaluates every match at one pose: on_point(view, group, i, residual) and on_ray(view, group, i, residual) for
-  /// those in front of the cameras and near enough to count.
-  template <class OnPoint, class OnRay>
-  void visit(const Rigid3& map_from_robot, OnPoint&& on_point, OnRay&& on_ray) const {
-    PointView::Residual point;
+  /// Evaluates every match at one pose: on_match(index, residual) for those that the pose explains at all.
+  template <class OnMatch>
+  void visit(const Rigid3& map_from_robot, OnMatch&& on_match) const {
+    MatchResidual residual;
     for (const PointGroup& group : point_groups) {
-      const PointView view(query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options.sigma_px);
+      const PointView view(query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options);
       for (std::size_t i = 0; i < group.pixel.size(); ++i) {
-        view.evaluate(group.pixel[i], group.point_in_map[i], group.covariance[i], point);
-        if (point.likelihood_ratio > 0) on_point(view, group, i, point);
+        view.evaluate(group.pixel[i], group.point_in_map[i], group.covariance[i], residual);
+        if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }
-    EpipolarView::Residual ray;
     for (const RayGroup& group : ray_groups) {
-      const EpipolarView view(query_cameras[static_cast<std::size_t>(group.query)],
-                              reference_cameras[static_cast<std::size_t>(group.reference)], map_from_robot,
-                              options.sigma_px);
+      const RayView view(query_cameras[static_cast<std::size_t>(group.query)],
+                         reference_cameras[static_cast<std::size_t>(group.reference)], map_from_robot, options,
+                         inverse_depth_prior);
       for (std::size_t i = 0; i < group.query_pixel.size(); ++i) {
-        view.evaluate(group.query_pixel[i], group.reference_pixel[i], ray);
-        if (ray.likelihood_ratio > 0) on_ray(view, group, i, ray);
+        view.evaluate(group.query_pixel[i], group.reference_pixel[i], residual);
+        if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }
   }

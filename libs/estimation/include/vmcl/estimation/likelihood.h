@@ -25,8 +25,9 @@ struct LikelihoodOptions {
 /// The one score of sampling, refinement, mode weights and particles.
 /// - 2D-3D: p is the 2-D Gaussian of the reprojection residual, its covariance the pixel noise plus the point's own
 ///   covariance carried into the image at that pose, zero behind the camera; u is one over the image area.
-/// - 2D-2D: p is the 1-D Gaussian of the Sampson residual of the epipolar constraint, zero behind a camera; u is one
-///   over the image extent across the epipolar line.
+/// - 2D-2D: the point lies somewhere on the reference ray, its inverse depth distributed as that of the matches with
+///   depth, or anywhere, and marginalized out; p is a Gaussian across the epipolar segment and spread along it. u is
+///   one over the image area.
 /// A pose that explains nothing scores (number of matches) * log(1 - e).
 class PoseLikelihood {
  public:
