@@ -62,7 +62,9 @@ inline Scene randomScene(Random& random, const SceneOptions& options) {
     reference.translation() += Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0);
     scene.problem.reference_cameras.push_back({test_camera, reference});
   }
-  const auto noise = [&] { return options.noise_px * Eigen::Vector2d(random.normal(), random.normal()); };
+  const auto noise = [&]() -> Eigen::Vector2d {
+    return options.noise_px * Eigen::Vector2d(random.normal(), random.normal());
+  };
   while (static_cast<int>(scene.problem.matches.size()) < options.matches) {
     const int k = static_cast<int>(scene.problem.matches.size()) % options.cameras;
     const Rigid3 map_from_query = map_from_robot * scene.problem.query_cameras[std::size_t(k)].robot_from_camera;

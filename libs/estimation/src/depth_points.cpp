@@ -79,7 +79,7 @@ std::optional<PlanarTransform> solveOnce(std::span<const RayToPoint> matches, co
   const Eigen::Matrix2d tt_inverse = normal.tt.inverse();
   const Eigen::Matrix2d elimination = normal.vt * tt_inverse;
   const Eigen::Matrix2d Q = normal.vv - elimination * normal.vt.transpose();
-  if (!(Q.trace() > 1e-18 * normal.vv.trace())) return std::nullopt;  // the points coincide
+  if (!(Q.trace() > 1e-12 * normal.vv.trace())) return std::nullopt;  // the points coincide
   const auto v = minimizeOnCircle(Q, normal.vd - elimination * normal.td);
   if (!v) return std::nullopt;
   const Eigen::Vector2d t = tt_inverse * (normal.td - normal.vt.transpose() * *v);
