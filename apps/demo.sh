@@ -26,7 +26,7 @@ run vmcl map map.simplemap -o map.vmap
 for sensor in camera laser; do
   map=map.vmap
   [ "$sensor" = camera ] || map=map.simplemap
-  run vmcl localize "$share/config/rooms-$sensor.ini" --map "$map" --rawlog query.rawlog \
+  run vmcl localize "$share/config/$sensor.ini" --map "$map" --rawlog query.rawlog \
     --groundtruth query.groundtruth.tum --threads 2 --out "$sensor"
 done
 

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`vmcl localize` with a camera: finds the robot, gives the same bytes again, and refuses broken logs and maps."""
+import json
+
+from command import SAMPLE, SOME_INPUT_BAD, SOURCE, CommandTest, main
+
+INI = SOURCE / 'share/config/camera.ini'
+MAP = SAMPLE / 'sample.vmap'
+LOG = SAMPLE / 'query.rawlog'
+
+
+class LocalizeCameraTest(CommandTest):
+    def localize(self, log=LOG, vmap=MAP, ini=INI, out='out'):
+        return ['localize', ini, '--map', vmap, '--rawlog', log, '--out', out]
+
+    def test_finds_the_robot(self):
+        self.succeed(*self.localize(), '--groundtruth', SAMPLE / 'query.groundtruth.tum')
+        summary = json.loads(self.path('out/summary.json').read_text())
+        self.assertTrue(summary['final']['localized'])
+        truth = summary['ground_truth']
+        self.assertTrue(truth['converged'])
+        self.assertEqual(truth['false_accepts'], 0)
+        self.assertLess(truth['position_error_after_convergence']['rmse'], 0.1)
+        self.assertEqual(sorted(f.name for f in self.path('out').iterdir()),
+                         ['frames.csv', 'path.png', 'path.svg', 'scene.3Dscene', 'summary.json', 'timing.csv',
+                          'trajectory.tum'])
+
+    def test_same_seed_same_bytes_for_any_number_of_threads(self):
+        outputs = []
+        for name, threads in (('once', 1), ('twice', 1), ('threads', 2)):
+            self.succeed(*self.localize(out=name), '--seed', 5, '--threads', threads)
+            outputs.append({f.name: f.read_bytes() for f in self.path(name).iterdir() if f.name != 'timing.csv'})
+        for output in outputs[1:]:
+            self.assertEqual(sorted(output), sorted(outputs[0]))
+            for name, content in output.items():
+                self.assertEqual(content, outputs[0][name], name)
+
+    def test_broken_maps(self):
+        good = MAP.read_bytes()
+        flipped = bytearray(good)
+        flipped[len(good) // 2] ^= 1
+        for broken in (b'', b'garbage' * 1000, good[:len(good) // 2], bytes(flipped)):
+            with self.subTest(broken[:20]):
+                self.write('broken.vmap', broken)
+                self.assert_refused(self.localize(vmap='broken.vmap'), 'broken.vmap')
+        self.assert_refused(self.localize(vmap='nowhere.vmap'), 'nowhere.vmap')
+
+    def test_logs_with_a_broken_camera(self):
+        for how in ('nan_intrinsics', 'missing_image', 'no_intrinsics', 'nan_mount'):
+            with self.subTest(how):
+                self.assert_refused(self.localize(self.spoil('query.rawlog', how)), f'{how}.rawlog', "'camera'")
+
+    def test_log_without_a_camera(self):
+        self.assert_refused(self.localize(self.spoil('query.rawlog', 'no_camera')), 'no_camera.rawlog',
+                            'no observation')
+
+    def test_log_with_odometry_that_is_not_finite(self):
+        """Such readings are passed over and named; the images still tell where the robot is."""
+        result = self.vmcl(*self.localize(self.spoil('query.rawlog', 'nan_odometry')))
+        self.assert_complaint(result, SOME_INPUT_BAD, 'nan_odometry.rawlog', 'odometry')
+
+    def test_images_that_are_broken(self):
+        """They are named; the others are used."""
+        log = self.copy(LOG)
+        images = self.path('query_Images')
+        images.mkdir()
+        for image in (SAMPLE / 'query_Images').iterdir():
+            (images / image.name).symlink_to(image)
+        bad = sorted(images.iterdir())[7]
+        for broken in (b'', b'garbage', bad.read_bytes()[:300]):
+            with self.subTest(broken[:20]):
+                bad.unlink()
+                bad.write_bytes(broken)
+                self.assert_complaint(self.vmcl(*self.localize(log)), SOME_INPUT_BAD, 'query.rawlog', bad.name)
+
+    def test_unknown_keys(self):
+        for section, key in (('vmcl', 'injection_shore'), ('MetricMap_visualKeyframes_00_creationOpts', 'map_fiel'),
+                             ('MetricMap_visualKeyframes_00_likelihoodOpts', 'retreived'),
+                             ('MetricMap_visualKeyframes_00_insertOpts', 'max_featuers')):
+            with self.subTest(section):
+                head = f'[{section}]\n'
+                ini = INI.read_text()
+                ini = ini.replace(head, f'{head}{key} = 1\n') if head in ini else f'{ini}\n{head}{key} = 1\n'
+                self.assert_refused(self.localize(ini=self.write('my.ini', ini)), 'my.ini', section, key)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""MRPT's own pf-localization, unchanged, localizes with a camera when libvmcl-mrpt.so is preloaded."""
+import math
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+from command import LIB, SAMPLE, SHARED, SOURCE, CommandTest, main
+
+STOCK = shutil.which('pf-localization')
+INI = SOURCE / 'share/config/pf-localization-camera.ini'
+PLUGIN = LIB / 'libvmcl-mrpt.so'
+BOX = SHARED / 'data/turtlebot_box'
+POSE = r'PDF estimation: \(([-\d.]+),([-\d.]+),([-\d.]+)deg\)'
+
+
+@unittest.skipUnless(STOCK, 'stock pf-localization is not installed')
+class StockTest(CommandTest):
+    def run_stock(self, preload):
+        """In the test's folder, which holds the map and the log under the names that the ini gives them."""
+        environment = {**os.environ, **({'LD_PRELOAD': str(PLUGIN)} if preload else {})}
+        return subprocess.run([STOCK, INI], cwd=self.folder, env=environment, text=True, timeout=600, check=False,
+                              errors='backslashreplace', stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def assert_ends_at(self, truth_file, metres, degrees):
+        result = self.run_stock(preload=True)
+        self.assertEqual(result.returncode, 0, result.stdout[-2000:])
+        x, y, heading_deg = (float(v) for v in re.findall(POSE, result.stdout)[-1])
+        true = [float(v) for v in truth_file.read_text().splitlines()[-1].split()[1:]]
+        true_heading_deg = math.degrees(2 * math.atan2(true[5], true[6]))
+        self.assertLess(math.dist((x, y), true[:2]), metres)
+        self.assertLess(abs(math.remainder(heading_deg - true_heading_deg, 360)), degrees)
+
+    def use(self, log):
+        """Puts a log with its images and its ground truth in the folder as query."""
+        for suffix in ('.rawlog', '_Images', '.groundtruth.tum'):
+            self.path(f'query{suffix}').symlink_to(f'{log}{suffix}')
+
+    def test_simulated_room(self):
+        self.use(SAMPLE / 'query')
+        self.path('map.vmap').symlink_to(SAMPLE / 'sample.vmap')
+        self.assert_ends_at(self.path('query.groundtruth.tum'), 0.25, 5)
+
+    def test_needs_the_plugin(self):
+        self.use(SAMPLE / 'query')
+        self.path('map.vmap').symlink_to(SAMPLE / 'sample.vmap')
+        self.assertNotRegex(self.run_stock(preload=False).stdout, POSE)
+
+    @unittest.skipUnless(BOX.exists(), f'{BOX} is not there')
+    def test_real_robot(self):
+        frames = {'drive': (0, 769), 'query': (770, 851)}
+        for name, (first, last) in frames.items():
+            self.succeed('import', 'tum', BOX, '-o', f'{name}.rawlog', '--first-frame', first, '--last-frame', last)
+        self.succeed('map', 'drive.rawlog', '--trajectory', 'drive.groundtruth.tum', '-o', 'map.vmap',
+                     '--mask-rows-from-top', 75)
+        self.assert_ends_at(self.path('query.groundtruth.tum'), 0.25, 5)
+
+
+if __name__ == '__main__':
+    main()
