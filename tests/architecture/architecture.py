@@ -11,6 +11,7 @@ usage: architecture.py SOURCE_DIR
 """
 import re
 import sys
+from os.path import normpath
 from pathlib import Path
 
 FLOORS = {'geometry': 0, 'estimation': 1, 'vision': 1, 'mapping': 2, 'relocalization': 3, 'mrpt': 4, 'datasets': 5,
@@ -40,8 +41,9 @@ def form_violations(lines):
             yield number, f'wider than {MAX_COLUMNS} characters'
 
 
-def include_violation(library, is_public, header):
-    """What is wrong with a file of libs/LIBRARY including this header, or None."""
+def include_violation(path, header):
+    """What is wrong with this file of libs/LIBRARY including this header, or None."""
+    library, is_public = path.parts[1], path.parts[2] == 'include'
     top, _, rest = header.partition('/')
     if top == 'vmcl':
         included = rest.partition('/')[0]
@@ -56,8 +58,8 @@ def include_violation(library, is_public, header):
             return f'{library} includes an OpenCV header'
         if is_public:
             return 'a public header includes an OpenCV header'
-    elif '..' in Path(header).parts:
-        return f'includes {header} by a way out of its folder'
+    elif not normpath(path.parent / header).startswith(f'libs/{library}/'):
+        return f'includes {header} from outside of its library'
     return None
 
 
@@ -71,7 +73,7 @@ def include_violations(path, lines):
         return
     for number, line in enumerate(lines, 1):
         include = INCLUDE.match(line)
-        wrong = include and include_violation(library, path.parts[2] == 'include', include[1])
+        wrong = include and include_violation(path, include[1])
         if wrong:
             yield number, wrong
 

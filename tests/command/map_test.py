@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`vmcl map`: from a simplemap and from a log with a trajectory; broken logs, trajectories and simplemaps are refused."""
+"""`vmcl map`: from a simplemap, and from a log with a trajectory; broken ones are refused."""
 from command import SAMPLE, SOME_INPUT_BAD, CommandTest, main
 
 LOG = SAMPLE / 'map.rawlog'
