@@ -9,6 +9,7 @@
 
 #include "fake_map.h"
 #include "vmcl/mrpt/pose_cluster.h"
+#include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
 namespace {
@@ -171,6 +172,44 @@ TEST(PlanarMonteCarlo, AnImageFindsAKidnappedRobot) {
   }
 }
 
+/// A map with a camera whose image looks, sharply, like another place than where the particles are.
+class AliasedMap : public FakeMap, public RelocalizingMap {
+ public:
+  explicit AliasedMap(const PlanarPose& looks_like)
+      : FakeMap([](const PlanarPose&) { return 0; }), looks_like_(looks_like) {}
+
+  void addLogLikelihoods(const mrpt::obs::CObservation&, std::span<const PlanarPose> poses, int,
+                         std::span<double> log_likelihoods) const override {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const double distance = std::hypot(poses[i].x - looks_like_.x, poses[i].y - looks_like_.y);
+      log_likelihoods[i] += 60 * std::exp(-distance * distance / 0.02);
+    }
+  }
+  PoseEstimate relocalize(const mrpt::obs::CObservation&) const override { return {{mode(looks_like_, 0.05)}, ""}; }
+  void extend(PoseBox&) const override {}
+
+ private:
+  PlanarPose looks_like_;
+};
+
+TEST(PlanarMonteCarlo, OneAliasedImageDoesNotMoveTheRobotTwoDo) {
+  const PlanarPose looks_like{3, 2, 0};
+  const auto maps = mrpt::maps::CMultiMetricMap::Create();
+  maps->maps.push_back(std::make_shared<AliasedMap>(looks_like));
+  FilterSetup setup;
+  setup.filter.BETA = 0.5;
+  PlanarMonteCarlo filter(maps, setup.kld, setup.filter, setup.options, PoseRegion(box));
+  filter.start(PoseRegion({-1.1, -0.9, -0.1, 0.1, 0, 0.2}), 2000);
+  const auto frame = someObservation();
+  const PoseMode aliased = mode(looks_like, 0.05);
+  const auto moved = [&] { return weightWhere(filter, [](const PlanarPose& p) { return p.x > 2; }); };
+  filter.update(nullptr, &frame, {&aliased, 1});
+  EXPECT_GT(moved(), 0.02);  // odds of about 0.01 / 0.1
+  EXPECT_LT(moved(), 0.2);
+  filter.update(nullptr, &frame, {&aliased, 1});
+  EXPECT_GT(moved(), 0.9);
+}
+
 TEST(PlanarMonteCarlo, RecoversWithRandomParticlesWhenTheLikelihoodDrops) {
   FilterSetup setup;
   setup.options.recovery_alpha_slow = 0.001;
@@ -226,6 +265,7 @@ TEST(PlanarMonteCarlo, RefusesBadOptions) {
   refuses([](FilterSetup& s) { s.options.injection_share = std::nan(""); });
   refuses([](FilterSetup& s) { s.options.kidnapping_probability = -0.1; });
   refuses([](FilterSetup& s) { s.options.recovery_alpha_fast = 2; });
+  refuses([](FilterSetup& s) { s.options.aliasing_probability = 1; });
   refuses([](FilterSetup& s) { s.options.threads = 0; });
   refuses([](FilterSetup& s) {
     s.filter.adaptiveSampleSize = true;

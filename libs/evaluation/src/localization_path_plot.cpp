@@ -9,6 +9,7 @@
 
 #include "vmcl/evaluation/localization_picture.h"
 #include "vmcl/geometry/atomic_file.h"
+#include "vmcl/mrpt/visual_keyframe_map.h"
 
 namespace vmcl {
 namespace {
@@ -28,13 +29,34 @@ void addOccupiedCells(const mrpt::maps::COccupancyGridMap2D& grid, std::ostrings
         points << grid.idx2x(x) << ' ' << grid.idx2y(y) << '\n';
 }
 
+/// Where the keyframes were taken, and landmarks within a few metres of them: the rest are far or bad.
+void addVisualMap(const KeyframeMap& map, std::ostringstream& landmarks, std::ostringstream& keyframes) {
+  constexpr double reach = 4;  // m
+  Eigen::AlignedBox2d area;
+  for (const Keyframe& keyframe : map.keyframes) {
+    const Eigen::Vector2d position = keyframe.map_from_robot.translation().head<2>();
+    keyframes << position.x() << ' ' << position.y() << '\n';
+    area.extend(position);
+  }
+  for (const Landmark& landmark : map.landmarks)
+    if (const Eigen::Vector2d position = landmark.point_in_map.head<2>(); area.exteriorDistance(position) < reach)
+      landmarks << position.x() << ' ' << position.y() << '\n';
+}
+
 std::vector<Layer> layersOf(const LocalizationRun& run, const mrpt::maps::CMultiMetricMap& maps) {
   std::vector<Layer> layers;
   Layer cells{"occupied", "with points pt 5 ps 0.25 lc rgb '#707070'", {}};
-  for (const auto& map : maps.maps)
+  Layer landmarks{"landmarks", "with points pt 7 ps 0.1 lc rgb '#909090'", {}};
+  Layer keyframes{"keyframes", "with points pt 7 ps 0.3 lc rgb '#e0903a'", {}};
+  for (const auto& map : maps.maps) {
     if (const auto* grid = dynamic_cast<const mrpt::maps::COccupancyGridMap2D*>(map.get()))
       addOccupiedCells(*grid, cells.points);
+    if (const auto* visual = dynamic_cast<const VisualKeyframeMap*>(map.get()); visual && visual->content())
+      addVisualMap(*visual->content(), landmarks.points, keyframes.points);
+  }
   layers.push_back(std::move(cells));
+  layers.push_back(std::move(landmarks));
+  layers.push_back(std::move(keyframes));
   Layer truth{"ground truth", "with lines lw 3 lc rgb '#2ca02c'", {}};
   if (run.ground_truth)
     for (const StampedPose& pose : run.ground_truth->poses())

@@ -194,6 +194,7 @@ void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {
   section.read("recovery_alpha_fast", config.monte_carlo.recovery_alpha_fast);
   section.read("injection_share", config.monte_carlo.injection_share);
   section.read("kidnapping_probability", config.monte_carlo.kidnapping_probability);
+  section.read("aliasing_probability", config.monte_carlo.aliasing_probability);
   section.read("max_position_deviation", config.localized.max_position_deviation);
   double max_heading_deviation_deg = mrpt::RAD2DEG(config.localized.max_heading_deviation);
   section.read("max_heading_deviation_deg", max_heading_deviation_deg);

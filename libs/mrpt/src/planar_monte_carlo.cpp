@@ -7,6 +7,7 @@
 #include <mrpt/random.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -29,6 +30,13 @@ void checkShare(const char* name, double value, double high) {
 
 PlanarPose planarPose(const mrpt::math::TPose2D& pose) { return {pose.x, pose.y, pose.phi}; }
 
+double logSumExp(std::span<const double> values) {
+  const double top = *std::max_element(values.begin(), values.end());
+  double sum = 0;
+  for (const double value : values) sum += std::exp(value - top);
+  return top + std::log(sum);
+}
+
 /// MRPT's generator as new: randomize() alone would keep the spare half of its last pair of normal numbers.
 void seedMrpt(uint64_t seed) {
   mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(static_cast<uint32_t>(seed ^ (seed >> 32)));
@@ -40,6 +48,7 @@ void PlanarMonteCarloOptions::check() const {
   RecoveryAverages(recovery_alpha_slow, recovery_alpha_fast);
   checkShare("injection_share", injection_share, 0.9);
   checkShare("kidnapping_probability", kidnapping_probability, 0.5);
+  checkShare("aliasing_probability", aliasing_probability, 0.5);
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("threads = " + std::to_string(threads) + " is not in [1, 1024]");
 }
@@ -77,8 +86,7 @@ void PlanarMonteCarlo::update(const mrpt::obs::CActionCollection* action, const 
   if (filter_options_.PF_algorithm != CParticleFilter::pfStandardProposal) return runStockAlgorithm(action, frame);
   if (action) predict(*action);
   if (!frame) return;
-  inject(modes);
-  weigh(*frame);
+  weigh(*frame, inject(modes));
   resample();
 }
 
@@ -119,35 +127,50 @@ void PlanarMonteCarlo::replaceParticles(std::size_t count, Draw&& draw) {
   for (std::size_t i = count; i < size; ++i) m_particles[i].log_w += std::log1p(-share) - std::log(kept);
 }
 
-void PlanarMonteCarlo::inject(std::span<const PoseMode> modes) {
+/// Returns the logarithm of uniform density over proposal density for each particle, or nothing if no image was used.
+std::vector<double> PlanarMonteCarlo::inject(std::span<const PoseMode> modes) {
   const double lost_share = recovery_.enabled() ? recovery_.randomShare() : 0;
   const double size = static_cast<double>(m_particles.size());
   const auto countOf = [&](double share) { return static_cast<std::size_t>(std::min(share, 0.95) * size); };
   if (lost_share > 0) recovery_.restart();
-  if (modes.empty() || monte_carlo_options_.injection_share == 0) {
+  if (modes.empty() || monte_carlo_options_.injection_share == 0 || anywhere_.volume() == 0) {
     if (const std::size_t count = countOf(lost_share); count > 0)
       replaceParticles(count, [&] { return anywhere_.draw(random_); });
-    return;
+    return {};
   }
   const double kidnapped = std::max(lost_share, monte_carlo_options_.kidnapping_probability);
   const std::size_t count = countOf(std::max(lost_share, monte_carlo_options_.injection_share));
-  if (count == 0) return;
+  if (count == 0) return {};
   PoseDensity predicted;
   for (const auto& particle : m_particles) predicted.add(planarPose(particle.d), std::exp(particle.log_w));
   const ModeMixture mixture(modes);
   replaceParticles(count, [&] { return mixture.draw(random_); });
   const double share = static_cast<double>(count) / size;
-  const double uniform = anywhere_.volume() > 0 ? 1 / anywhere_.volume() : 0;
+  const double uniform = 1 / anywhere_.volume();
+  std::vector<double> log_uniform_ratios;
   for (auto& particle : m_particles) {
     const PlanarPose pose = planarPose(particle.d);
     const double density = predicted(pose);
     const double belief = (1 - kidnapped) * density + kidnapped * uniform;
     const double proposal = (1 - share) * density + share * mixture.density(pose);
     particle.log_w += std::log(std::max(belief, std::numeric_limits<double>::min()) / proposal);
+    log_uniform_ratios.push_back(std::log(uniform / proposal));
   }
+  return log_uniform_ratios;
 }
 
-void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
+void PlanarMonteCarlo::allowForAliasing(std::span<const double> log_uniform_ratios,
+                                        std::span<double> log_likelihoods) const {
+  const double aliasing = monte_carlo_options_.aliasing_probability;
+  if (log_uniform_ratios.empty() || aliasing == 0) return;
+  std::vector<double> weighed(log_likelihoods.begin(), log_likelihoods.end());
+  for (std::size_t i = 0; i < weighed.size(); ++i) weighed[i] += log_uniform_ratios[i];
+  const double log_mean = logSumExp(weighed) - std::log(static_cast<double>(weighed.size()));
+  for (double& value : log_likelihoods)
+    value = logSumExp(std::array{value + std::log1p(-aliasing), log_mean + std::log(aliasing)});
+}
+
+void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const double> log_uniform_ratios) {
   std::vector<PlanarPose> poses;
   std::vector<mrpt::poses::CPose3D> mrpt_poses;
   for (const auto& particle : m_particles) {
@@ -167,14 +190,15 @@ void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
       for (std::size_t i = 0; i < poses.size(); ++i)
         of_others[i] += map->computeObservationLikelihood(*observation, mrpt_poses[i]);
     }
-  double top = -std::numeric_limits<double>::infinity(), sum = 0;
-  for (double& log_likelihood : of_others) top = std::max(top, log_likelihood *= filter_options_.powFactor);
+  allowForAliasing(log_uniform_ratios, of_images);
+  std::vector<double> weighed_others;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    sum += std::exp(m_particles[i].log_w + of_others[i] - top);
-    m_particles[i].log_w += of_others[i] + of_images[i] * filter_options_.powFactor;
-    if (!std::isfinite(m_particles[i].log_w)) throw std::runtime_error("a map gave a likelihood that is not finite");
+    double& log_weight = m_particles[i].log_w;
+    weighed_others.push_back(log_weight + of_others[i] * filter_options_.powFactor);
+    log_weight = weighed_others.back() + of_images[i] * filter_options_.powFactor;
+    if (!std::isfinite(log_weight)) throw std::runtime_error("a map gave a likelihood that is not finite");
   }
-  if (others && recovery_.enabled()) recovery_.add(top + std::log(sum));
+  if (others && recovery_.enabled()) recovery_.add(logSumExp(weighed_others));
   normalize();
 }
 

@@ -25,8 +25,10 @@ struct LocalizedRule {
 
 /// A localization experiment as pf-localization's ini describes it, with our own section [vmcl]:
 ///
-///     recovery_alpha_slow, recovery_alpha_fast, injection_share, kidnapping_probability   (PlanarMonteCarloOptions)
-///     max_position_deviation, max_heading_deviation_deg, min_share, min_frames            (LocalizedRule)
+///     recovery_alpha_slow, recovery_alpha_fast, injection_share, kidnapping_probability, aliasing_probability
+///     max_position_deviation, max_heading_deviation_deg, min_share, min_frames
+///
+/// (PlanarMonteCarloOptions and LocalizedRule).
 ///
 /// Of the stock sections these are read: [KLD_options] and [PF_options] whole, [DummyOdometryParams] minStdXY and
 /// minStdPHI, [MetricMap] and the sections of its maps whole, [LocalizationExperiment] map_file, rawlog_file,

@@ -18,6 +18,7 @@ struct PlanarMonteCarloOptions {
   double recovery_alpha_fast = 0;        ///< AMCL: decay of the fast one (e.g. 0.1); 0: no recovery
   double injection_share = 0.1;          ///< share of the particles drawn from an image's own estimate; 0: none
   double kidnapping_probability = 0.01;  ///< chance, at each image, that the robot is not where the particles are
+  double aliasing_probability = 0.1;     ///< chance that an image looks like another place than where it was taken
   int threads = 1;                       ///< that weigh particles; the result does not depend on it
   uint64_t seed = 1;
 
@@ -35,6 +36,11 @@ struct PlanarMonteCarloOptions {
 /// density u of the map, and the image's modes m, the belief before the image is b = (1 - e) p + e u; a share a of the
 /// particles is drawn from m, so the proposal is q = (1 - a) p + a m, and each particle weighs b/q before it is
 /// weighed by the likelihood. Thus the image is counted once, and the belief does not move towards it by being sampled.
+///
+/// An image may look like another place, and be consistently wrong. With the chance g of that and the likelihood l(x),
+/// it is weighed by (1 - g) l(x) + g z, where z is the mean of l over the map, which the particles tell by importance
+/// sampling. So one image moves the robot elsewhere by odds of no more than about e / g, however sharp it is; two that
+/// agree do.
 class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
  public:
   using KldOptions = mrpt::slam::TKLDParams;
@@ -61,8 +67,9 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
  private:
   void runStockAlgorithm(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame);
   void predict(const mrpt::obs::CActionCollection& action);
-  void inject(std::span<const PoseMode> modes);
-  void weigh(const mrpt::obs::CSensoryFrame& frame);
+  std::vector<double> inject(std::span<const PoseMode> modes);
+  void weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const double> log_uniform_ratios);
+  void allowForAliasing(std::span<const double> log_uniform_ratios, std::span<double> log_likelihoods) const;
   void resample();
   void normalize();
 
