@@ -72,6 +72,8 @@ class PointView {
     const Eigen::Vector2d predicted = h.head<2>() * inverse_depth;
     result.pixel_error = predicted - pixel;
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_depth;
+    const double largest_variance = sigma2_ + result.pixel_by_point.squaredNorm() * covariance.trace();
+    if (result.pixel_error.squaredNorm() > max_distance2 * largest_variance) return;
     result.arm = point - position_;
     result.scale = 1;
     Eigen::Matrix2d S = result.pixel_by_point * covariance * result.pixel_by_point.transpose();
@@ -120,16 +122,18 @@ class RayView {
     if (!(h.z() > std::max(rho * min_depth, 1e-3))) return;
     const double inverse_z = 1 / h.z();
     const Eigen::Vector2d predicted = h.head<2>() * inverse_z;
-    const Eigen::Vector2d by_rho = (parallax_.head<2>() - predicted * parallax_.z()) * inverse_z;
+    result.pixel_error = predicted - query_pixel;
     const Eigen::Matrix2d by_reference_pixel =
         (pixel_from_reference_pixel_.topLeftCorner<2, 2>() - predicted * pixel_from_reference_pixel_.row(2).head<2>()) *
         inverse_z;
+    const double largest_variance = sigma2_ * (1 + by_reference_pixel.squaredNorm());
+    if (result.pixel_error.squaredNorm() > max_distance2 * largest_variance) return;
     Eigen::Matrix2d S = sigma2_ * by_reference_pixel * by_reference_pixel.transpose();
     S.diagonal().array() += sigma2_;
-    result.pixel_error = predicted - query_pixel;
     result.setLikelihood(S, area_);
     if (result.likelihood_ratio <= 0) return;
 
+    const Eigen::Vector2d by_rho = (parallax_.head<2>() - predicted * parallax_.z()) * inverse_z;
     const double rho_variance = 1 / (by_rho.dot(result.information * by_rho) + 1e-12);  // as this match measures it
     result.likelihood_ratio *= alongSegment(rho, rho_variance, by_rho.squaredNorm());
     // No information along the segment, but for the bearing of a point near infinity.
