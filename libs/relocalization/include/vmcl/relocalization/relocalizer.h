@@ -14,9 +14,10 @@ namespace vmcl {
 
 struct RelocalizerOptions {
   MatchingOptions matching{};
-  int retrieved = 3;              ///< reference keyframes per image (the paper's 3)
-  double reliable_depth = 5;      ///< landmarks farther from the reference than this (m) give 2D-2D matches
-  double max_point_sigma = 0.25;  ///< and so do landmarks less certain than this (m, largest axis)
+  int retrieved = 3;             ///< reference keyframes per image (the paper's 3)
+  double reliable_depth = 10;    ///< landmarks farther from the reference than this (m) give 2D-2D matches
+  double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
+                                 ///< than the paper's 5 m, since each point carries its covariance
   EstimatorOptions estimator{};
 
   /// Throws std::invalid_argument naming the bad key.
