@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/maps/CMetricMap.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <functional>
@@ -10,7 +11,7 @@
 
 namespace vmcl {
 
-/// A metric map with any log likelihood one likes, the same for every observation.
+/// A metric map with any log likelihood one likes, the same for every observation. It can use comments only.
 class FakeMap : public mrpt::maps::CMetricMap {
  public:
   explicit FakeMap(std::function<double(const PlanarPose&)> log_likelihood) : likelihood_(std::move(log_likelihood)) {}
@@ -30,6 +31,9 @@ class FakeMap : public mrpt::maps::CMetricMap {
   double internal_computeObservationLikelihood(const mrpt::obs::CObservation&,
                                                const mrpt::poses::CPose3D& pose) const override {
     return likelihood_({pose.x(), pose.y(), pose.yaw()});
+  }
+  bool internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& observation) const override {
+    return dynamic_cast<const mrpt::obs::CObservationComment*>(&observation) != nullptr;
   }
   uint8_t serializeGetVersion() const override { return 0; }
   void serializeTo(mrpt::serialization::CArchive&) const override {}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/localizer.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include "filter_setup.h"
+#include "vmcl/mrpt/relocalizing_map.h"
+
+namespace vmcl {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationComment;
+using mrpt::obs::CObservationOdometry;
+
+mrpt::maps::CMultiMetricMap::Ptr mapsWith(const std::shared_ptr<FakeMap>& map) {
+  auto maps = mrpt::maps::CMultiMetricMap::Create();
+  maps->maps.push_back(map);
+  return maps;
+}
+
+/// All particles at (1, 2, 0), and little noise.
+LocalizationConfig tracking() {
+  LocalizationConfig config;
+  config.particles_count = 200;
+  config.start = {1, 1, 2, 2, 0, 0};
+  config.motion_model.gaussianModel.minStdXY = 0.001;
+  config.motion_model.gaussianModel.minStdPHI = 0.001;
+  config.localized.min_frames = 2;
+  return config;
+}
+
+std::shared_ptr<FakeMap> flatMap() {
+  return std::make_shared<FakeMap>([](const PlanarPose&) { return 0; });
+}
+
+CObservation::Ptr commentAt(double time) {
+  auto observation = CObservationComment::Create();
+  observation->timestamp = mrpt::Clock::fromDouble(time);
+  return observation;
+}
+
+CObservation::Ptr odometry(double x) {
+  auto observation = CObservationOdometry::Create();
+  observation->odometry = mrpt::poses::CPose2D(x, 0, 0);
+  return observation;
+}
+
+TEST(Localizer, FollowsTheOdometryOfSingleObservations) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  EXPECT_FALSE(localizer.step(nullptr, nullptr, odometry(5)));
+  EXPECT_FALSE(localizer.step(nullptr, nullptr, odometry(6)));  // before the first observation: the start is there
+  const auto first = localizer.step(nullptr, nullptr, commentAt(10));
+  ASSERT_TRUE(first);
+  EXPECT_DOUBLE_EQ(first->time, 10);
+  EXPECT_NEAR(first->cluster.robot_in_map.x, 1, 1e-9);
+  localizer.step(nullptr, nullptr, odometry(6.25));
+  localizer.step(nullptr, nullptr, odometry(6.5));
+  const auto second = localizer.step(nullptr, nullptr, commentAt(11));
+  ASSERT_TRUE(second);
+  EXPECT_NEAR(second->cluster.robot_in_map.x, 1.5, 0.02);
+  EXPECT_NEAR(second->cluster.robot_in_map.y, 2, 0.02);
+}
+
+TEST(Localizer, KeepsTheOdometryAcrossObservationsOfNoUse) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  localizer.step(nullptr, nullptr, odometry(0));
+  localizer.step(nullptr, nullptr, commentAt(0));
+  localizer.step(nullptr, nullptr, odometry(0.5));
+  EXPECT_FALSE(localizer.step(nullptr, nullptr, mrpt::obs::CObservation2DRangeScan::Create()));
+  const auto frame = localizer.step(nullptr, nullptr, commentAt(1));
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(frame->cluster.robot_in_map.x, 1.5, 0.02);
+}
+
+TEST(Localizer, TakesPairsOfActionsAndFrames) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  const auto action = std::make_shared<mrpt::obs::CActionCollection>(movement(0.3, 0));
+  const auto frame = std::make_shared<mrpt::obs::CSensoryFrame>(someObservation());
+  const auto first = localizer.step(action, frame, nullptr);  // the start is where the first frame was taken
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->cluster.robot_in_map.x, 1, 1e-9);
+  EXPECT_NEAR(localizer.step(action, frame, nullptr)->cluster.robot_in_map.x, 1.3, 0.02);
+}
+
+TEST(Localizer, SkipsTheOffset) {
+  LocalizationConfig config = tracking();
+  config.rawlog_offset = 2;
+  Localizer localizer(config, mapsWith(flatMap()));
+  EXPECT_FALSE(localizer.step(nullptr, nullptr, commentAt(0)));
+  EXPECT_FALSE(localizer.step(nullptr, nullptr, commentAt(1)));
+  EXPECT_TRUE(localizer.step(nullptr, nullptr, commentAt(2)));
+}
+
+TEST(Localizer, IsLocalizedAfterSharpFramesInARow) {
+  Localizer sharp(tracking(), mapsWith(flatMap()));
+  EXPECT_FALSE(sharp.step(nullptr, nullptr, commentAt(0))->localized);
+  EXPECT_TRUE(sharp.step(nullptr, nullptr, commentAt(1))->localized);
+  LocalizationConfig config = tracking();
+  config.start = {0, 5, 0, 5};
+  Localizer spread(config, mapsWith(flatMap()));
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(spread.step(nullptr, nullptr, commentAt(i))->localized);
+}
+
+TEST(Localizer, SameSeedSameFrames) {
+  const auto run = [] {
+    Localizer localizer(tracking(), mapsWith(flatMap()));
+    for (int i = 0; i < 5; ++i) {
+      localizer.step(nullptr, nullptr, odometry(0.1 * i));
+      localizer.step(nullptr, nullptr, commentAt(i));
+    }
+    return numbersOf(localizer.particles());
+  };
+  EXPECT_EQ(run(), run());
+}
+
+/// A camera's map to which every observation is broken.
+class BrokenMap : public FakeMap, public RelocalizingMap {
+ public:
+  BrokenMap() : FakeMap([](const PlanarPose&) { return 0; }) {}
+  void addLogLikelihoods(const CObservation&, std::span<const PlanarPose>, int, std::span<double>) const override {}
+  PoseEstimate relocalize(const CObservation&) const override { throw std::runtime_error("camera 'front': no image"); }
+  void extend(PoseBox&) const override {}
+};
+
+TEST(Localizer, NamesBrokenObservationsAndGoesOn) {
+  Localizer localizer(tracking(), mapsWith(std::make_shared<BrokenMap>()));
+  EXPECT_FALSE(localizer.step(nullptr, nullptr, commentAt(0)));
+  EXPECT_EQ(localizer.takeProblems(), std::vector<std::string>{"camera 'front': no image"});
+  EXPECT_TRUE(localizer.takeProblems().empty());
+}
+
+TEST(Localizer, FreeSpaceNeedsAGrid) {
+  LocalizationConfig config = tracking();
+  config.start_in_free_space = true;
+  EXPECT_THROW(Localizer(config, mapsWith(flatMap())), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vmcl
