@@ -51,10 +51,13 @@ class LocalizeLaserTest(CommandTest):
         for key, values in (('particles_count', ('x', '0', '1e30', '99999999999')), ('init_PDF_min_x', ('nan', 'x')),
                             ('init_PDF_mode', ('7',)), ('use_3D_poses', ('true', 'x')), ('minStdXY', ('nan', '-1')),
                             ('occupancyGrid_count', ('x', '-1', '1000000000')), ('KLD_binSize_XY', ('nan', '0')),
-                            ('KLD_maxSampleSize', ('1', '-1')), ('resolution', ('nan', '0')), ('LF_stdHit', ('nan',))):
+                            ('KLD_maxSampleSize', ('1', '-1')), ('resolution', ('nan',)), ('LF_stdHit', ('nan',))):
             for value in values:
                 with self.subTest(key=key, value=value):
                     self.assert_ini_refused(self.with_value(key, value), key)
+
+    def test_value_that_mrpt_refuses(self):
+        self.assert_ini_refused(self.with_value('resolution', '0'), 'res')
 
     def test_options_out_of_range(self):
         for option in (('--threads', '0'), ('--seed', 'x')):

@@ -226,6 +226,7 @@ LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::v
                                           const fs::path& rawlog_file) try {
   CConfigFileMemory ini = readIni(ini_file);
   LocalizationConfig config;
+  config.ini_file = ini_file;
   config.rawlog_file = rawlog_file;
   refuseNonFiniteValues(ini);
   readExperiment(ini, ini_file, config);

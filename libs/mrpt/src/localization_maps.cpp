@@ -49,13 +49,14 @@ CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config) {
   try {
     maps->setListOfMaps(config.maps);
   } catch (const std::exception& error) {
-    throw std::runtime_error(errorMessage(error));
+    throw std::runtime_error(config.ini_file.string() + ": " + errorMessage(error));
   }
   try {
     if (!config.map_file.empty()) fillFromFile(*maps, config.map_file);
     refuseEmptyVisualMaps(*maps);
   } catch (const std::exception& error) {
-    throw std::runtime_error((config.map_file.empty() ? "" : config.map_file.string() + ": ") + errorMessage(error));
+    const auto& file = config.map_file.empty() ? config.ini_file : config.map_file;
+    throw std::runtime_error(file.string() + ": " + errorMessage(error));
   }
   return maps;
 }

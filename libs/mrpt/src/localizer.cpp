@@ -18,6 +18,8 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
+bool isFinite(const mrpt::poses::CPose2D& pose) { return isFinite(PlanarPose{pose.x(), pose.y(), pose.phi()}); }
+
 PoseRegion startRegion(const LocalizationConfig& config, const CMultiMetricMap& maps) {
   if (!config.start_in_free_space) return PoseRegion(config.start);
   const auto grid = maps.mapByClass<COccupancyGridMap2D>();
@@ -56,17 +58,28 @@ std::vector<std::string> Localizer::takeProblems() { return std::exchange(proble
 std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& action, const CSensoryFrame::Ptr& frame,
                                                  const CObservation::Ptr& observation) {
   if (const auto reading = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) {
+    if (!isFinite(reading->odometry)) {
+      problems_.push_back("odometry '" + reading->sensorLabel + "': a reading that is not finite");
+      return std::nullopt;
+    }
     odometry_ = reading->odometry;
     if (!odometry_applied_) odometry_applied_ = odometry_;
     return std::nullopt;
   }
   if (steps_++ < config_.rawlog_offset) return std::nullopt;
-  if (frame) return update(action.get(), *frame);
+  if (frame) return update(hasFiniteMotion(action.get()) ? action.get() : nullptr, *frame);
   if (!observation || !maps_->canComputeObservationLikelihood(*observation)) return std::nullopt;
   CSensoryFrame single;
   single.insert(observation);
   const CActionCollection motion = motionSinceLastUpdate();
   return update(&motion, single);
+}
+
+bool Localizer::hasFiniteMotion(const CActionCollection* action) {
+  const auto movement = action ? action->getBestMovementEstimation() : nullptr;
+  if (!movement || isFinite(movement->poseChange->getMeanVal())) return true;
+  problems_.push_back("a movement that is not finite");
+  return false;
 }
 
 /// With the odometry readings so far; when there are none the robot may have moved by the model's least noise.

@@ -35,6 +35,7 @@ struct LocalizedRule {
 /// rawlog_offset, particles_count (the first, if several), init_PDF_mode, init_PDF_min_x and so on, use_3D_poses (must
 /// be false). What concerns windows, repetitions and stock's own output is left alone.
 struct LocalizationConfig {
+  std::filesystem::path ini_file;  ///< for messages
   mrpt::maps::TSetOfMetricMapInitializers maps;
   std::filesystem::path map_file;  ///< .simplemap(.gz) or .gridmap(.gz); empty: the maps bring their own content
   std::filesystem::path rawlog_file;
@@ -57,7 +58,7 @@ LocalizationConfig loadLocalizationConfig(const std::filesystem::path& ini,
                                           const std::vector<std::filesystem::path>& map_files = {},
                                           const std::filesystem::path& rawlog_file = {});
 
-/// Creates the maps and fills them. Throws std::runtime_error naming the map file and what is wrong.
+/// Creates the maps and fills them. Throws std::runtime_error naming the ini or the map file and what is wrong.
 mrpt::maps::CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config);
 
 }  // namespace vmcl

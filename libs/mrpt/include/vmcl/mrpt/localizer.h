@@ -50,6 +50,7 @@ class Localizer {
   std::optional<LocalizationFrame> update(const mrpt::obs::CActionCollection* action,
                                           const mrpt::obs::CSensoryFrame& frame);
   mrpt::obs::CSensoryFrame usable(const mrpt::obs::CSensoryFrame& frame, std::vector<PoseMode>& modes, int& inliers);
+  bool hasFiniteMotion(const mrpt::obs::CActionCollection* action);
   mrpt::obs::CActionCollection motionSinceLastUpdate();
 
   LocalizationConfig config_;
