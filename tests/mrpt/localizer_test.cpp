@@ -103,6 +103,28 @@ TEST(Localizer, IsLocalizedAfterSharpFramesInARow) {
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(spread.step(nullptr, nullptr, commentAt(i))->localized);
 }
 
+// Two places look alike but for one step, which carries the cluster from one to the other.
+TEST(Localizer, IsNotLocalizedRightAfterAJump) {
+  LocalizationConfig config = tracking();
+  config.start = {1, 3, 2, 2, 0, 0};
+  config.particles_count = 2000;
+  config.localized.max_position_deviation = 0.5;
+  double place = 1;
+  const auto map = std::make_shared<FakeMap>(
+      [&](const PlanarPose& pose) { return std::max(-10.0, -50 * (pose.x - place) * (pose.x - place)); });
+  Localizer jumping(config, mapsWith(map));
+  jumping.step(nullptr, nullptr, commentAt(0));
+  place = 3;  // the few particles left there take over
+  for (int i = 1; i < 4; ++i) {
+    const auto frame = jumping.step(nullptr, nullptr, commentAt(i));
+    if (frame->cluster.robot_in_map.x < 2) continue;
+    EXPECT_FALSE(frame->localized);
+    EXPECT_TRUE(jumping.step(nullptr, nullptr, commentAt(i + 1))->localized);
+    return;
+  }
+  FAIL() << "the cluster did not jump";
+}
+
 TEST(Localizer, SameSeedSameFrames) {
   const auto run = [] {
     Localizer localizer(tracking(), mapsWith(flatMap()));

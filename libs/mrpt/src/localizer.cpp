@@ -44,6 +44,13 @@ PoseRegion anywhere(const LocalizationConfig& config, const CMultiMetricMap& map
   return PoseRegion(box);
 }
 
+PlanarPose meanMotion(const CActionCollection* action) {
+  const auto movement = action ? action->getBestMovementEstimation() : nullptr;
+  if (!movement) return {};
+  const mrpt::poses::CPose2D mean = movement->poseChange->getMeanVal();
+  return {mean.x(), mean.y(), mean.phi()};
+}
+
 }  // namespace
 
 Localizer::Localizer(const LocalizationConfig& config, CMultiMetricMap::Ptr maps)
@@ -114,12 +121,26 @@ CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode
   return used;
 }
 
+/// One deceptive image can carry a whole cluster elsewhere: a robot that jumps is not localized.
+void Localizer::countSteadyFrames(const PoseCluster& cluster) {
+  const LocalizedRule& rule = config_.localized;
+  const bool narrow = cluster.positionDeviation() <= rule.max_position_deviation &&
+                      cluster.headingDeviation() <= rule.max_heading_deviation && cluster.share >= rule.min_share;
+  const Eigen::Vector3d jump =
+      expected_ ? difference(cluster.robot_in_map, *expected_) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const bool as_expected =
+      jump.head<2>().norm() <= rule.max_position_deviation && std::abs(jump.z()) <= rule.max_heading_deviation;
+  steady_frames_ = !narrow ? 0 : as_expected ? steady_frames_ + 1 : 1;
+  expected_ = cluster.robot_in_map;
+}
+
 std::optional<LocalizationFrame> Localizer::update(const CActionCollection* action, const CSensoryFrame& frame) {
   const auto begin = std::chrono::steady_clock::now();
   LocalizationFrame result;
   std::vector<PoseMode> modes;
   const CSensoryFrame used = usable(frame, modes, result.inliers);
   const CActionCollection* const motion = started_ ? action : nullptr;
+  if (expected_) expected_ = *expected_ * meanMotion(motion);
   if (used.size() == 0) {
     filter_.update(motion, nullptr);
     return std::nullopt;
@@ -127,13 +148,9 @@ std::optional<LocalizationFrame> Localizer::update(const CActionCollection* acti
   started_ = true;
   filter_.update(motion, &used, modes);
   result.cluster = dominantCluster(filter_);
-  const LocalizedRule& rule = config_.localized;
-  const bool sharp = result.cluster.positionDeviation() <= rule.max_position_deviation &&
-                     result.cluster.headingDeviation() <= rule.max_heading_deviation &&
-                     result.cluster.share >= rule.min_share;
-  sharp_frames_ = sharp ? sharp_frames_ + 1 : 0;
+  countSteadyFrames(result.cluster);
   result.time = mrpt::Clock::toDouble((*used.begin())->timestamp);
-  result.localized = sharp_frames_ >= rule.min_frames;
+  result.localized = steady_frames_ >= config_.localized.min_frames;
   result.effective_share = filter_.effectiveShare();
   result.particles = static_cast<int>(filter_.particlesCount());
   result.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

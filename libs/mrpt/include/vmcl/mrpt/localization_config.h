@@ -17,7 +17,8 @@ struct LocalizedRule {
   double max_position_deviation = 0.3;  ///< of the dominant cluster, m
   double max_heading_deviation = 0.17;  ///< of the dominant cluster, rad
   double min_share = 0.8;               ///< of all weight that the cluster holds, (0, 1]
-  int min_frames = 3;                   ///< updates in a row for which all of this holds
+  int min_frames = 3;                   ///< updates in a row for which all of this holds, and between which the
+                                        ///< cluster moved as the odometry says, to within the same deviations
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;

@@ -52,6 +52,7 @@ class Localizer {
   mrpt::obs::CSensoryFrame usable(const mrpt::obs::CSensoryFrame& frame, std::vector<PoseMode>& modes, int& inliers);
   bool hasFiniteMotion(const mrpt::obs::CActionCollection* action);
   mrpt::obs::CActionCollection motionSinceLastUpdate();
+  void countSteadyFrames(const PoseCluster& cluster);
 
   LocalizationConfig config_;
   mrpt::maps::CMultiMetricMap::Ptr maps_;
@@ -60,8 +61,9 @@ class Localizer {
   std::optional<mrpt::poses::CPose2D> odometry_applied_;  ///< the reading that the particles have moved to
   std::vector<std::string> problems_;
   int steps_ = 0;
-  int sharp_frames_ = 0;  ///< updates in a row with a narrow cluster
-  bool started_ = false;  ///< an observation has been used
+  std::optional<PlanarPose> expected_;  ///< the cluster of the last update, moved by the odometry since
+  int steady_frames_ = 0;               ///< updates in a row with a narrow cluster where it was expected
+  bool started_ = false;                ///< an observation has been used
 };
 
 }  // namespace vmcl
