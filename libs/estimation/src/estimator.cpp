@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/estimation/estimator.h"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "minimal_sampler.h"
@@ -56,13 +58,23 @@ bool alike(const Hypothesis& a, const Hypothesis& b) {
          std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
 }
 
+/// Log odds of the pose against chance: its likelihood ratio, integrated over the peak (Laplace) with a prior that
+/// spreads over all headings and all places within sight of the references. The best of many poses fits some outliers
+/// always; this asks for more.
+double logEvidence(const RefinedPose& refined) {
+  constexpr double reach = 10;  // m
+  const double volume = std::numbers::pi * reach * reach * 2 * std::numbers::pi;
+  const double peak = 0.5 * std::log((2 * std::numbers::pi * refined.covariance).determinant());
+  return refined.objective + peak - std::log(volume);
+}
+
 std::vector<PoseMode> refineModes(const PoseLikelihood& likelihood, const EstimatorOptions& options,
                                   const std::vector<ScoredHypothesis<Hypothesis>>& hypotheses) {
   const PoseRefiner refiner(likelihood, options.plane);
   std::vector<PoseMode> modes;
   for (const auto& [hypothesis, score] : hypotheses) {
     const RefinedPose refined = refiner.refine(hypothesis.pose);
-    if (!refined.constrained || !(refined.objective > 0)) continue;
+    if (!refined.constrained || !(logEvidence(refined) > 0)) continue;
     PoseMode& mode = modes.emplace_back();
     mode.robot_in_map = refined.map_from_robot;
     mode.covariance = refined.covariance;

@@ -25,7 +25,8 @@ struct EstimatorOptions {
   void check() const;
 };
 
-/// The answer: a mixture of Gaussian modes, the heaviest first. No modes: no pose, and `reason` says why.
+/// The answer: a mixture of Gaussian modes, the heaviest first, each better supported than a pose that fits outliers by
+/// chance. No modes: no pose, and `reason` says why.
 struct PoseEstimate {
   std::vector<PoseMode> modes;
   std::string reason;
