@@ -15,7 +15,7 @@ constexpr std::size_t remembered = 16;  // images: more than the cameras of a ro
 
 double ImageMeasurement::logLikelihood(const PlanarPose& robot_in_map) const {
   if (!likelihood || !isFinite(robot_in_map)) return 0;
-  const double value = temper * (*likelihood)(robot_in_map);
+  const double value = match_weight * (*likelihood)(robot_in_map);
   return std::isfinite(value) ? value : 0;
 }
 
@@ -57,8 +57,7 @@ void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, Imag
   LikelihoodOptions of_particles = options_.relocalizer.estimator.likelihood;
   of_particles.sigma_px = options_.particle_sigma_px;
   measurement.likelihood.emplace(measurement.problem, of_particles);
-  measurement.temper =
-      std::min(1.0, options_.effective_matches / static_cast<double>(measurement.problem.matches.size()));
+  measurement.match_weight = options_.match_weight;
 }
 
 }  // namespace vmcl

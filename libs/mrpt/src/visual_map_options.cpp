@@ -15,7 +15,7 @@ template <typename Options, typename Visit>
 void visitLikelihoodOptions(Options& options, Visit&& visit) {
   auto& relocalizer = options.relocalizer;
   visit("particle_sigma_px", options.particle_sigma_px);
-  visit("effective_matches", options.effective_matches);
+  visit("match_weight", options.match_weight);
   visit("retrieved", relocalizer.retrieved);
   visit("reliable_depth", relocalizer.reliable_depth);
   visit("max_point_sigma", relocalizer.max_point_sigma);
@@ -54,7 +54,8 @@ void VisualMapOptions::check() const {
       throw std::invalid_argument(std::string(key) + " = " + std::to_string(value) + " is not positive");
   };
   demand("particle_sigma_px", particle_sigma_px);
-  demand("effective_matches", effective_matches);
+  if (!(match_weight > 0 && match_weight <= 1))
+    throw std::invalid_argument("match_weight = " + std::to_string(match_weight) + " is not in (0, 1]");
   featureKindFromName(features);
   relocalizer.check();
   builder.check();

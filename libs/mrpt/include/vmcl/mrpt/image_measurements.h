@@ -21,10 +21,10 @@ struct ImageMeasurement {
   std::string error;  ///< why the image cannot be used; empty: it can
   PoseProblem problem;
   std::optional<PoseLikelihood> likelihood;  ///< none without matches
-  double temper = 1;                         ///< factor of the log likelihood
+  double match_weight = 1;                   ///< factor of the log likelihood
   mutable std::atomic_flag reported;         ///< the error has been told
 
-  /// Tempered log likelihood; 0 when the image says nothing.
+  /// Weighted log likelihood; 0 when the image says nothing.
   double logLikelihood(const PlanarPose& robot_in_map) const;
 
   /// True once for an image that cannot be used.

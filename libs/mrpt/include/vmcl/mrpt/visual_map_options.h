@@ -13,18 +13,19 @@ namespace vmcl {
 /// What the ini says about a visual map, in the three sections that MRPT gives every map. A particle's log likelihood
 /// is
 ///
-///     min(1, effective_matches / matches) * L(pose), with L at particle_sigma_px in place of sigma_px.
+///     match_weight * L(pose), with L at particle_sigma_px in place of sigma_px.
 ///
-/// The factor is there because errors of one image's matches are not independent (a shift of the mount, of a
-/// landmark cluster, of the time stamp moves many of them at once), as AMCL counts only laser_max_beams of the beams.
-/// The wider noise gives each particle the likelihood of its neighbourhood: a few thousand particles lie centimetres
-/// apart, where an image tells millimetres.
+/// A match counts as a small part of an independent one because neighbouring features err together: an error of the
+/// mount, of a group of landmarks, of the time stamp moves many at once, and a repeated texture brings a dozen wrong
+/// matches that agree. (AMCL uses laser_max_beams of the beams for the like reason.) The wider noise gives each
+/// particle the likelihood of its neighbourhood: a few thousand particles lie centimetres apart, where an image tells
+/// millimetres.
 struct VisualMapOptions {
   std::string map_file;            ///< [.._creationOpts] a .vmap; empty: the map is built from inserted images
   std::string image_directory;     ///< [.._creationOpts] where a log's outside images lie, for stock programs, which do
                                    ///< not look in <rawlog>_Images; sets MRPT's process-wide base directory of images
   double particle_sigma_px = 8;    ///< [.._likelihoodOpts] pixel noise when particles are weighed
-  double effective_matches = 20;   ///< [.._likelihoodOpts] independent matches that an image counts as, at most
+  double match_weight = 0.04;      ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
                                    ///< sigma_px, inlier_prior, iterations, max_modes
   std::string features = "sift";   ///< [.._insertOpts] sift or orb
