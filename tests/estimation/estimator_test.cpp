@@ -62,15 +62,14 @@ TEST(Estimator, SaysWhyThereIsNoPose) {
   EXPECT_FALSE(same.reason.empty());
 }
 
-// Matches by chance alone must not look like a pose that many matches agree on.
-TEST(Estimator, PureOutliersHaveLittleSupport) {
+// Sixty matches by chance alone: a pose is better supported than chance in about 1 of 1,000 (measured on other seeds).
+// More than 2 of 50 would be a false alarm in 50,000.
+TEST(Estimator, PureOutliersGiveNoPose) {
   Random random(54);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Scene scene = randomScene(random, {.matches = 60, .outlier_rate = 1});
-    const PoseEstimate estimate = estimatePose(scene.problem, {});
-    const std::size_t support = estimate.found() ? estimate.modes[0].inliers.size() : 0;
-    EXPECT_LT(support, 25u);
-  }
+  int found = 0;
+  for (int trial = 0; trial < 50; ++trial)
+    found += estimatePose(randomScene(random, {.matches = 60, .outlier_rate = 1}).problem, {}).found();
+  EXPECT_LE(found, 2);
 }
 
 TEST(Estimator, RefusesBadOptions) {

@@ -102,6 +102,15 @@ TEST(PoseRefiner, UnconstrainedPoseIsReported) {
   EXPECT_FALSE(PoseRefiner(likelihood, {}).refine(PlanarTransform(scene.map_from_robot)).constrained);
 }
 
+TEST(PoseRefiner, ManySharpMatchesConstrainThePose) {
+  Random random(46);
+  const Scene scene = randomScene(random, {.matches = 400, .depth_rate = 1, .noise_px = 0.01});
+  const PoseLikelihood likelihood(scene.problem, {.sigma_px = 0.01});
+  const RefinedPose refined = PoseRefiner(likelihood, {}).refine(PlanarTransform(scene.map_from_robot));
+  EXPECT_TRUE(refined.constrained);
+  EXPECT_LT(difference(refined.map_from_robot, scene.map_from_robot).norm(), 1e-4);
+}
+
 TEST(PoseRefiner, RefusesBadPriors) {
   EXPECT_THROW(SoftPlane({.sigma_tilt = -1}).check(), std::invalid_argument);
   EXPECT_THROW(SoftPlane({.sigma_tilt = 0, .sigma_height = NAN}).check(), std::invalid_argument);

@@ -134,8 +134,12 @@ RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations
     regularize(linear, best);
     if (gain < 1e-6) break;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(linear.information, Eigen::EigenvaluesOnly);
-  best.constrained = eigen.eigenvalues()[0] > 1e-9 * eigen.eigenvalues()[5];
+  // Of the matrix scaled to a unit diagonal, so that neither units nor the amount of data count.
+  const Vector6 scale = linear.information.diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix6 correlation = scale.asDiagonal() * linear.information * scale.asDiagonal();
+  if (!correlation.allFinite()) return best;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(correlation, Eigen::EigenvaluesOnly);
+  best.constrained = eigen.eigenvalues()[0] > 1e-9;
   if (best.constrained) best.covariance = linear.information.inverse().topLeftCorner<3, 3>();
   return best;
 }
