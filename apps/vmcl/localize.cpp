@@ -109,7 +109,9 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
                    "Directory for trajectory.tum, frames.csv, summary.json, scene.3Dscene, path.svg, path.png and "
                    "timing.csv (the only one that differs between runs of one seed)");
   verb->add_option("--groundtruth", request->ground_truth, "True poses in the map, TUM format, to compare with");
-  verb->add_option("--seed", request->seed, "Of everything random")->capture_default_str();
+  verb->add_option("--seed", request->seed,
+                   "Of the particle filter; the samples drawn from an image are always the same")
+      ->capture_default_str();
   verb->add_option("--threads", request->threads, "That weigh particles; results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

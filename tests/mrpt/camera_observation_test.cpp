@@ -73,6 +73,12 @@ TEST(CameraObservation, readsImageCalibrationMountAndTime) {
   EXPECT_EQ(camera->image.pixels[8 + 4], 255);
 }
 
+TEST(CameraObservation, refusesAnImageWithoutATimeStamp) {
+  CObservationImage observation = observation8x6();
+  observation.timestamp = INVALID_TIMESTAMP;
+  EXPECT_EQ(failureOf(observation), "camera 'front': no time stamp");
+}
+
 TEST(CameraObservation, looksForwardWithMrptsAngles) {
   const auto camera = cameraObservation(observation8x6());
   ASSERT_TRUE(camera);

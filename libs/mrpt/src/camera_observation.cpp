@@ -63,6 +63,7 @@ CameraObservation convert(const mrpt::obs::CObservation& observation, const mrpt
                           const mrpt::img::TCamera& camera, const mrpt::poses::CPose3D& robot_from_camera) try {
   CameraObservation out;
   out.label = observation.sensorLabel;
+  if (observation.timestamp == INVALID_TIMESTAMP) throw std::runtime_error("no time stamp");
   out.time = mrpt::Clock::toDouble(observation.timestamp);
   out.calibration = calibrationOf(camera);
   out.robot_from_camera = rigidOf(robot_from_camera);

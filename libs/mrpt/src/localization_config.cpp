@@ -32,8 +32,9 @@ CConfigFileMemory readIni(const fs::path& file) {
   constexpr std::uintmax_t max_bytes = 16 << 20;
   std::ifstream in(file, std::ios::binary);
   std::error_code error;
-  const auto bytes = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
-  if (!in || error) throw std::runtime_error("cannot be opened");
+  const bool regular = fs::is_regular_file(file, error);  // reading a device may never end
+  const auto bytes = regular ? fs::file_size(file, error) : 0;
+  if (!in || !regular || error) throw std::runtime_error("cannot be opened");
   if (bytes > max_bytes) throw std::runtime_error("is no ini: larger than 16 MiB");
   CConfigFileMemory ini;
   ini.setContent(std::string(std::istreambuf_iterator<char>(in), {}));

@@ -111,6 +111,14 @@ void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
   normalize();
 }
 
+/// What is replaced is drawn at random, so it must not matter which particle it is. An adaptive sample size has drawn
+/// them anew in the prediction.
+void PlanarMonteCarlo::equalizeWeights() {
+  if (filter_options_.adaptiveSampleSize) return;
+  performResampling(filter_options_, m_particles.size());
+  normalize();
+}
+
 template <typename Draw>
 void PlanarMonteCarlo::replaceParticles(std::size_t count, Draw&& draw) {
   const std::size_t size = m_particles.size();
@@ -134,13 +142,16 @@ std::vector<double> PlanarMonteCarlo::inject(std::span<const PoseMode> modes) {
   const auto countOf = [&](double share) { return static_cast<std::size_t>(std::min(share, 0.95) * size); };
   if (lost_share > 0) recovery_.restart();
   if (modes.empty() || monte_carlo_options_.injection_share == 0 || anywhere_.volume() == 0) {
-    if (const std::size_t count = countOf(lost_share); count > 0)
+    if (const std::size_t count = countOf(lost_share); count > 0) {
+      equalizeWeights();
       replaceParticles(count, [&] { return anywhere_.draw(random_); });
+    }
     return {};
   }
   const double kidnapped = std::max(lost_share, monte_carlo_options_.kidnapping_probability);
   const std::size_t count = countOf(std::max(lost_share, monte_carlo_options_.injection_share));
   if (count == 0) return {};
+  equalizeWeights();
   PoseDensity predicted;
   for (const auto& particle : m_particles) predicted.add(planarPose(particle.d), std::exp(particle.log_w));
   const ModeMixture mixture(modes);

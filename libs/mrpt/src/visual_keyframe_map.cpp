@@ -131,7 +131,7 @@ bool VisualKeyframeMap::isEmpty() const {
 }
 
 bool VisualKeyframeMap::internal_insertObservation(const mrpt::obs::CObservation& observation,
-                                                   const std::optional<const mrpt::poses::CPose3D>& robot_in_map) {
+                                                   const std::optional<const mrpt::poses::CPose3D>& robot_in_map) try {
   if (!options_.map_file.empty()) return false;
   auto camera = cameraObservation(observation);
   if (!camera) return false;
@@ -140,6 +140,9 @@ bool VisualKeyframeMap::internal_insertObservation(const mrpt::obs::CObservation
   state_->content.reset();
   state_->measurements.reset();
   return true;
+} catch (const std::exception& error) {
+  std::cerr << "vmcl: visual map: " << error.what() << '\n';  // one broken image must not end the program
+  return false;
 }
 
 bool VisualKeyframeMap::internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& observation) const {

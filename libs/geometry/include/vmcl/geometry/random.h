@@ -7,8 +7,8 @@
 
 namespace vmcl {
 
-/// Random numbers that are the same on every platform (the distributions of <random> are not): PCG-XSH-RR 64/32,
-/// O'Neill 2014. Passed explicitly, never global. Different streams of one seed are independent.
+/// Random numbers whose integers are the same on every platform (the distributions of <random> are not): PCG-XSH-RR
+/// 64/32, O'Neill 2014. Passed explicitly, never global. Different streams of one seed are different sequences.
 class Random {
  public:
   explicit Random(uint64_t seed, uint64_t stream = 0) : increment_((stream << 1) | 1) {

@@ -71,6 +71,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   void weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const double> log_uniform_ratios);
   void allowForAliasing(std::span<const double> log_uniform_ratios, std::span<double> log_likelihoods) const;
   void resample();
+  void equalizeWeights();
   void normalize();
 
   template <typename Draw>
