@@ -35,6 +35,7 @@ void addPrior(ceres::Problem& problem, const Eigen::Vector3d& given, const Eigen
 ceres::Solver::Options solverOptions() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_SCHUR;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // SuiteSparse's BLAS rounds differently each run
   options.num_threads = 1;
   options.max_num_iterations = 50;
   options.function_tolerance = 1e-7;
@@ -70,7 +71,7 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   }
   const auto addCorrection = [&](Eigen::Vector3d& correction, const Eigen::Vector3d& correction_weights) {
     addPrior(problem, Eigen::Vector3d::Zero(), correction_weights, correction.data());
-    ordering->AddElementToGroup(correction.data(), 1);
+    ordering->AddElementToGroup(correction.data(), 2);  // within a group Ceres orders by address
   };
   for (CameraCorrection& correction : scene.corrections) {
     addCorrection(correction.rotation, noise.mountRotationWeights());
