@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <bit>
 #include <cmath>
@@ -53,7 +54,7 @@ TEST_P(MatchFeatures, FindsDisturbedCopies) {
 
 TEST_P(MatchFeatures, AgreesWithBruteForce) {
   const FeatureSet query = randomFeatures(GetParam(), 40, random_), reference = randomFeatures(GetParam(), 50, random_);
-  const MatchingOptions options{.max_ratio = 0.97, .mutual = true};
+  const MatchingOptions options{.max_ratio = 0.97};
   std::map<int, std::pair<int, double>> expected;
   for (int i = 0; i < query.size(); ++i) {
     std::vector<std::pair<double, int>> sorted;
@@ -77,7 +78,7 @@ TEST_P(MatchFeatures, AgreesWithBruteForce) {
 
 TEST_P(MatchFeatures, MutualMatchesAreOneToOneAndSymmetric) {
   const FeatureSet a = randomFeatures(GetParam(), 80, random_), b = randomFeatures(GetParam(), 70, random_);
-  const MatchingOptions options{.max_ratio = 1, .mutual = true};
+  const MatchingOptions options{.max_ratio = 1};
   std::map<int, int> forward, backward;
   for (const FeatureMatch& match : matchFeatures(a, b, options)) forward[match.query] = match.reference;
   for (const FeatureMatch& match : matchFeatures(b, a, options)) backward[match.reference] = match.query;
@@ -118,6 +119,21 @@ TEST_P(MatchFeatures, FollowsAShiftedImage) {
   }
   EXPECT_GT(right, 100);
   EXPECT_GT(right, 0.9 * static_cast<double>(matches.size()));
+}
+
+// A table of all distances would take 320 MB.
+TEST(MatchFeaturesTest, MemoryIsLinearInTheFeatures) {
+  Random random(1);
+  const FeatureSet many = randomFeatures(FeatureKind::orb, 20'000, random);
+  const FeatureSet few = randomFeatures(FeatureKind::orb, 4'000, random);
+  const auto peakMegabytes = [] {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+  };
+  const auto before = peakMegabytes();
+  matchFeatures(many, few, {});
+  EXPECT_LT(peakMegabytes() - before, 50);
 }
 
 TEST(MatchingOptionsTest, RefusesWhatMakesNoSense) {

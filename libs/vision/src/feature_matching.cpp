@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -29,10 +30,6 @@ struct Nearest {
   }
 };
 
-/// One row a query. Exact; plain loops without branches, which compilers turn into vector instructions, several times
-/// as fast as cv::batchDistance.
-using Distances = Eigen::Matrix<int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// Number of bits that differ, by adding up neighbours within words (Warren, Hacker's Delight, section 5-1). Sums stay
 /// below 256 a byte for up to 31 words.
 int32_t hammingDistance(const uint32_t* a, const uint32_t* b, Eigen::Index words) {
@@ -47,37 +44,77 @@ int32_t hammingDistance(const uint32_t* a, const uint32_t* b, Eigen::Index words
   return static_cast<int32_t>((sums & 0xffffu) + (sums >> 16));
 }
 
-Distances hammingDistances(const Descriptors& query, const Descriptors& reference) {
-  using Words = Eigen::Matrix<uint32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto toWords = [](const Descriptors& descriptors) {
-    Words words(descriptors.rows(), descriptors.cols() / 4);
-    std::memcpy(words.data(), descriptors.data(), static_cast<std::size_t>(descriptors.size()));
-    return words;
-  };
-  const Words a = toWords(query), b = toWords(reference);
-  Distances distances(a.rows(), b.rows());
-  for (Eigen::Index i = 0; i < a.rows(); ++i)
-    for (Eigen::Index j = 0; j < b.rows(); ++j)
-      distances(i, j) = hammingDistance(a.row(i).data(), b.row(j).data(), a.cols());
-  return distances;
-}
-
 int32_t dotProduct(const int16_t* a, const int16_t* b, Eigen::Index size) {
   int32_t sum = 0;
   for (Eigen::Index i = 0; i < size; ++i) sum += int32_t{a[i]} * b[i];
   return sum;
 }
 
-Distances squaredEuclideanDistances(const Descriptors& query, const Descriptors& reference) {
+/// Distances of one query descriptor at a time to all of the reference. Exact; plain loops without branches, which
+/// compilers turn into vector instructions, several times as fast as cv::batchDistance.
+class HammingDistances {
+ public:
+  HammingDistances(const Descriptors& query, const Descriptors& reference)
+      : query_(toWords(query)), reference_(toWords(reference)) {}
+
+  void ofQuery(Eigen::Index query, std::span<int32_t> distances) const {
+    for (Eigen::Index j = 0; j < reference_.rows(); ++j)
+      distances[static_cast<std::size_t>(j)] =
+          hammingDistance(query_.row(query).data(), reference_.row(j).data(), query_.cols());
+  }
+
+ private:
+  using Words = Eigen::Matrix<uint32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  static Words toWords(const Descriptors& descriptors) {
+    Words words(descriptors.rows(), descriptors.cols() / 4);
+    std::memcpy(words.data(), descriptors.data(), static_cast<std::size_t>(descriptors.size()));
+    return words;
+  }
+
+  Words query_, reference_;
+};
+
+class SquaredEuclideanDistances {
+ public:
+  SquaredEuclideanDistances(const Descriptors& query, const Descriptors& reference)
+      : query_(query.cast<int16_t>()),
+        reference_(reference.cast<int16_t>()),
+        query_norms_(query_.cast<int32_t>().rowwise().squaredNorm()),
+        reference_norms_(reference_.cast<int32_t>().rowwise().squaredNorm()) {}
+
+  void ofQuery(Eigen::Index query, std::span<int32_t> distances) const {
+    for (Eigen::Index j = 0; j < reference_.rows(); ++j)
+      distances[static_cast<std::size_t>(j)] =
+          query_norms_[query] + reference_norms_[j] -
+          2 * dotProduct(query_.row(query).data(), reference_.row(j).data(), query_.cols());
+  }
+
+ private:
   using Wide = Eigen::Matrix<int16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Wide a = query.cast<int16_t>(), b = reference.cast<int16_t>();
-  const Eigen::VectorXi a_norms = a.cast<int32_t>().rowwise().squaredNorm();
-  const Eigen::VectorXi b_norms = b.cast<int32_t>().rowwise().squaredNorm();
-  Distances distances(a.rows(), b.rows());
-  for (Eigen::Index i = 0; i < a.rows(); ++i)
-    for (Eigen::Index j = 0; j < b.rows(); ++j)
-      distances(i, j) = a_norms[i] + b_norms[j] - 2 * dotProduct(a.row(i).data(), b.row(j).data(), a.cols());
-  return distances;
+
+  Wide query_, reference_;
+  Eigen::VectorXi query_norms_, reference_norms_;
+};
+
+struct NearestPairs {
+  std::vector<Nearest> of_query, of_reference;
+};
+
+template <class DistanceKind>
+NearestPairs nearestPairs(const Descriptors& query, const Descriptors& reference) {
+  const DistanceKind kind(query, reference);
+  const auto references = static_cast<std::size_t>(reference.rows());
+  NearestPairs nearest{std::vector<Nearest>(static_cast<std::size_t>(query.rows())), std::vector<Nearest>(references)};
+  std::vector<int32_t> distances(references);
+  for (int i = 0; i < query.rows(); ++i) {
+    kind.ofQuery(i, distances);
+    for (std::size_t j = 0; j < references; ++j) {
+      nearest.of_query[static_cast<std::size_t>(i)].offer(static_cast<int>(j), distances[j]);
+      nearest.of_reference[j].offer(i, distances[j]);
+    }
+  }
+  return nearest;
 }
 
 float ratioOf(const Nearest& nearest, FeatureKind kind) {
@@ -100,19 +137,13 @@ std::vector<FeatureMatch> matchFeatures(const FeatureSet& query, const FeatureSe
   std::vector<FeatureMatch> matches;
   if (query.size() == 0 || reference.size() == 0) return matches;
 
-  const Distances distances = query.kind == FeatureKind::orb
-                                  ? hammingDistances(query.descriptors, reference.descriptors)
-                                  : squaredEuclideanDistances(query.descriptors, reference.descriptors);
-  std::vector<Nearest> of_query(static_cast<std::size_t>(query.size()));
-  std::vector<Nearest> of_reference(static_cast<std::size_t>(reference.size()));
-  for (int i = 0; i < query.size(); ++i)
-    for (int j = 0; j < reference.size(); ++j) {
-      of_query[static_cast<std::size_t>(i)].offer(j, distances(i, j));
-      of_reference[static_cast<std::size_t>(j)].offer(i, distances(i, j));
-    }
+  const auto [of_query, of_reference] =
+      query.kind == FeatureKind::orb
+          ? nearestPairs<HammingDistances>(query.descriptors, reference.descriptors)
+          : nearestPairs<SquaredEuclideanDistances>(query.descriptors, reference.descriptors);
   for (int i = 0; i < query.size(); ++i) {
     const Nearest& nearest = of_query[static_cast<std::size_t>(i)];
-    if (options.mutual && of_reference[static_cast<std::size_t>(nearest.row)].row != i) continue;
+    if (of_reference[static_cast<std::size_t>(nearest.row)].row != i) continue;
     const float ratio = ratioOf(nearest, query.kind);
     if (ratio <= options.max_ratio) matches.push_back({i, nearest.row, ratio});
   }

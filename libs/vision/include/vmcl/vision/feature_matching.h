@@ -9,7 +9,6 @@ namespace vmcl {
 
 struct MatchingOptions {
   double max_ratio = 0.8;  ///< distance to the nearest over distance to the second nearest (Lowe 2004), in (0, 1]
-  bool mutual = true;      ///< each must be the other's nearest
 
   void check() const;
 };
@@ -21,7 +20,8 @@ struct FeatureMatch {
   float ratio = 1;  ///< of the ratio test; smaller is more distinctive
 };
 
-/// Matches by increasing query row. Throws std::invalid_argument when the kinds differ.
+/// Pairs each of which is the other's nearest, by increasing query row. Memory is linear in the number of features.
+/// Throws std::invalid_argument when the kinds differ.
 std::vector<FeatureMatch> matchFeatures(const FeatureSet& query, const FeatureSet& reference,
                                         const MatchingOptions& options);
 

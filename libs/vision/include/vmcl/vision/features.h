@@ -36,8 +36,10 @@ struct FeatureSet {
 };
 
 struct FeatureOptions {
+  static constexpr int most_features = 100'000;  ///< that an image may have
+
   FeatureKind kind = FeatureKind::sift;
-  int max_features = 1000;     ///< strongest kept
+  int max_features = 1000;     ///< strongest kept, at most most_features
   int mask_rows_from_top = 0;  ///< rows of the image that show the robot itself
 
   /// Throws std::invalid_argument naming the bad key.
