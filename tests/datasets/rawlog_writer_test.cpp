@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/datasets/rawlog_writer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <unistd.h>
@@ -87,6 +88,30 @@ TEST(RawlogWriter, replacesAnOlderLogAndItsImages) {
   for (const auto& item : std::filesystem::recursive_directory_iterator(scratch.path()))
     files += item.is_regular_file();
   EXPECT_EQ(files, 2);
+}
+
+TEST(RawlogWriter, leavesTheOlderImagesWhenTheLogCannotBeReplaced) {
+  const ScratchDirectory scratch;
+  const auto log = scratch.path() / "drive.rawlog", older = scratch.path() / "drive_Images" / "older.png";
+  std::filesystem::create_directories(log / "a directory that no file replaces");
+  std::filesystem::create_directory(older.parent_path());
+  std::ofstream(older) << "of the older log";
+  EXPECT_THROW(writeLog(log, 1), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::exists(older));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 2);
+}
+
+TEST(RawlogWriter, touchesNoFolderThatBelongsToNoLog) {
+  const ScratchDirectory scratch;
+  const auto log = scratch.path() / "drive.rawlog", others = scratch.path() / "drive_Images" / "holiday.png";
+  std::filesystem::create_directory(others.parent_path());
+  std::ofstream(others) << "of somebody else";
+  EXPECT_THAT([&] { writeLog(log, 1); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("drive_Images")));
+  EXPECT_TRUE(std::filesystem::exists(others));
+  EXPECT_FALSE(std::filesystem::exists(log));
+  std::filesystem::remove(others);
+  EXPECT_NO_THROW(writeLog(log, 1));
 }
 
 TEST(RawlogWriter, leavesNothingWithoutCommit) {

@@ -36,6 +36,9 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& log)
       images_(rawlogCompanion(log, "_Images")),
       temporary_images_(images_.string() + ".part" + std::to_string(getpid())) {
   std::error_code error;
+  if (std::filesystem::exists(images_, error) && !std::filesystem::exists(log, error) &&
+      !(std::filesystem::is_directory(images_, error) && std::filesystem::is_empty(images_, error)))
+    fail(images_, "it is there already and belongs to no log");
   std::filesystem::remove_all(temporary_images_, error);
   if (!std::filesystem::create_directory(temporary_images_, error)) fail(images_, error.message());
 }
@@ -66,11 +69,26 @@ void RawlogWriter::write(mrpt::obs::CObservationImage observation, std::string_v
 }
 
 void RawlogWriter::commit() {
-  std::error_code error;
-  std::filesystem::remove_all(images_, error);
+  const std::filesystem::path older_images = temporary_images_.string() + ".old";
+  std::error_code error, ignored;
+  const bool replaces = std::filesystem::exists(std::filesystem::symlink_status(images_));
+  const auto restore = [&] {
+    if (replaces) std::filesystem::rename(older_images, images_, ignored);
+  };
+  if (replaces) std::filesystem::rename(images_, older_images, error);
   if (!error) std::filesystem::rename(temporary_images_, images_, error);
-  if (error) fail(images_, error.message());
-  file_.commit();
+  if (error) {
+    restore();
+    fail(images_, error.message());
+  }
+  try {
+    file_.commit();
+  } catch (const std::exception&) {
+    std::filesystem::rename(images_, temporary_images_, ignored);
+    restore();
+    throw;
+  }
+  std::filesystem::remove_all(older_images, ignored);
 }
 
 }  // namespace vmcl

@@ -17,10 +17,11 @@ namespace vmcl {
 std::filesystem::path rawlogCompanion(const std::filesystem::path& log, const std::string& suffix);
 
 /// Writes a rawlog of single observations, in the order given, its images outside. Log and images appear together at
-/// commit() and replace an older log and its images; without commit() nothing appears.
+/// commit() and replace an older log and its images; without commit() nothing changes.
 class RawlogWriter {
  public:
-  /// Throws std::runtime_error naming the file when log or image directory cannot be written.
+  /// Throws std::runtime_error naming the file when log or image directory cannot be written, or when there is
+  /// something in the image directory though there is no older log that it could belong to.
   explicit RawlogWriter(const std::filesystem::path& log);
   ~RawlogWriter();
   RawlogWriter(const RawlogWriter&) = delete;
