@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -94,14 +96,34 @@ void writeScript(std::ostream& script, const std::vector<Layer>& layers, const s
   script << "\nset terminal pngcairo size 900,700\nset output " << quoted(png) << "\nreplot\n";
 }
 
-void runGnuplot(const std::filesystem::path& script) {
+/// All that is written to a pipe, until its last writer ends.
+std::string readAll(int pipe) {
+  std::string text;
+  char buffer[512];
+  for (ssize_t bytes; (bytes = read(pipe, buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<size_t>(bytes));
+  return text;
+}
+
+/// What gnuplot complained of, in one line; empty when it was content.
+std::string runGnuplot(const std::filesystem::path& script) {
   std::string program = "gnuplot", argument = script.string();
   char* arguments[] = {program.data(), argument.data(), nullptr};
+  int complaints[2];
+  if (pipe2(complaints, O_CLOEXEC) != 0) return "no pipe to it";
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, complaints[1], STDERR_FILENO);
   pid_t process = 0;
+  const int error = posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(complaints[1]);
+  std::string said = readAll(complaints[0]);
+  close(complaints[0]);
+  if (error != 0) return "cannot be started: is it installed?";
   int status = 0;
-  if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0)
-    throw std::runtime_error("gnuplot cannot be started: is it installed?");
-  if (waitpid(process, &status, 0) != process || status != 0) throw std::runtime_error("gnuplot failed");
+  if (waitpid(process, &status, 0) == process && status == 0) return {};
+  std::ranges::replace(said, '\n', ' ');
+  return "failed: " + said;
 }
 
 }  // namespace
@@ -112,7 +134,8 @@ void drawPath(const std::filesystem::path& stem, const LocalizationRun& run, con
   AtomicFile script(stem.string() + ".gnuplot"), svg(stem.string() + ".svg"), png(stem.string() + ".png");
   writeScript(script.stream(), layers, svg.temporaryPath(), png.temporaryPath());
   script.stream().flush();
-  runGnuplot(script.temporaryPath());
+  if (const std::string complaint = runGnuplot(script.temporaryPath()); !complaint.empty())
+    throw std::runtime_error(stem.string() + ".svg: cannot be drawn: gnuplot " + complaint);
   svg.commit();
   png.commit();
 }
