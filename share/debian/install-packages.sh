@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libceres-dev libopencv-dev zlib1g-dev
+  libeigen3-dev libceres-dev libhwy-dev libopencv-dev zlib1g-dev
   libmrpt-slam-dev libmrpt-opengl-dev
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev
   libgl1-mesa-dri # renders without a GPU, for the simulator

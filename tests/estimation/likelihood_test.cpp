@@ -81,19 +81,6 @@ TEST(PoseLikelihood, FiniteAndBoundedForAnyPose) {
   EXPECT_TRUE(std::isfinite(likelihood(reference)));
 }
 
-TEST(PoseLikelihood, ManyPosesAreTheSameAsOneByOne) {
-  Random random(33);
-  const Scene scene = randomScene(random, {.noise_px = 2});
-  const PoseLikelihood likelihood(scene.problem, {});
-  std::vector<PlanarTransform> poses;
-  for (int k = 0; k < 100; ++k) poses.emplace_back(randomPose(random));
-  std::vector<double> values(poses.size());
-  likelihood.evaluate(poses, values);
-  for (std::size_t k = 0; k < poses.size(); ++k) EXPECT_EQ(values[k], likelihood(poses[k]));
-  values.pop_back();
-  EXPECT_THROW(likelihood.evaluate(poses, values), std::invalid_argument);
-}
-
 TEST(PoseLikelihood, RefusesBadOptionsAndProblems) {
   Random random(34);
   const Scene scene = randomScene(random, {});

@@ -45,6 +45,7 @@ PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodO
   }
   for (auto& [key, group] : points) point_groups.push_back(std::move(group));
   for (auto& [key, group] : rays) ray_groups.push_back(std::move(group));
+  terms = likelihoodTerms(problem, options, inverse_depth_prior, point_groups, ray_groups);
 }
 
 PoseLikelihood::PoseLikelihood(const PoseProblem& problem, const LikelihoodOptions& options) {
@@ -88,7 +89,10 @@ void PoseLikelihood::evaluate(std::span<const PlanarTransform> map_from_robot,
   if (map_from_robot.size() != log_likelihoods.size())
     throw std::invalid_argument("PoseLikelihood::evaluate: " + std::to_string(map_from_robot.size()) + " poses but " +
                                 std::to_string(log_likelihoods.size()) + " results");
-  for (std::size_t i = 0; i < map_from_robot.size(); ++i) log_likelihoods[i] = (*this)(map_from_robot[i]);
+  const auto& terms = prepared_->terms;
+  if (terms) evaluateTerms(*terms, map_from_robot, log_likelihoods);
+  for (std::size_t i = 0; i < map_from_robot.size(); ++i)
+    if (!terms || !isWithinReach(*terms, map_from_robot[i])) log_likelihoods[i] = (*this)(map_from_robot[i]);
 }
 
 }  // namespace vmcl

