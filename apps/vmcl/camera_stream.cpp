@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera_stream.h"
 
+#include "vmcl/mrpt/error_message.h"
+
 namespace vmcl {
 
 CameraStream::CameraStream(const std::filesystem::path& rawlog) : rawlog_(rawlog), reader_(rawlog) {}
@@ -13,7 +15,7 @@ std::optional<CameraObservation> CameraStream::next() {
     try {
       if (auto camera = cameraObservation(*observation)) return camera;
     } catch (const std::exception& error) {
-      problems_.add(rawlog_.string() + ": " + error.what());
+      problems_.add(rawlog_.string() + ": " + errorMessage(error));
     }
   }
   return std::nullopt;
@@ -28,7 +30,7 @@ bool CameraStream::readEntry() {
   try {
     if (!reader_.next(entry)) return false;
   } catch (const std::runtime_error& error) {
-    problems_.add(error.what());
+    problems_.add(errorMessage(error));
     return false;
   }
   if (entry.frame) waiting_.assign(entry.frame->begin(), entry.frame->end());

@@ -78,7 +78,9 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
       ->transform(CLI::CheckedTransformer(solvers))
       ->default_str("auto");
   verb->add_option("--iterations", options->estimator.iterations, "samples drawn")->capture_default_str();
-  verb->add_option("--seed", options->estimator.seed, "same seed, same answers")->capture_default_str();
+  verb->add_option("--seed", options->estimator.seed, "same seed, same answers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   verb->add_option("--sigma-px", options->estimator.likelihood.sigma_px, "standard deviation of a pixel coordinate")
       ->capture_default_str();
   verb->add_option("--threads", options->threads, "problems worked on at once; the answers do not depend on it")

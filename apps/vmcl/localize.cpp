@@ -10,6 +10,7 @@
 #include "vmcl/datasets/rawlog_reader.h"
 #include "vmcl/evaluation/localization_picture.h"
 #include "vmcl/evaluation/localization_report.h"
+#include "vmcl/mrpt/error_message.h"
 
 namespace vmcl {
 namespace {
@@ -38,7 +39,7 @@ ProblemReport replay(Localizer& localizer, const std::filesystem::path& rawlog, 
     }
   } catch (const std::runtime_error& error) {
     if (run.frames.empty()) throw;
-    problems.add(error.what());
+    problems.add(errorMessage(error));
   }
   return problems;
 }
@@ -109,8 +110,8 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
                    "Directory for trajectory.tum, frames.csv, summary.json, scene.3Dscene, path.svg, path.png and "
                    "timing.csv (the only one that differs between runs of one seed)");
   verb->add_option("--groundtruth", request->ground_truth, "True poses in the map, TUM format, to compare with");
-  verb->add_option("--seed", request->seed,
-                   "Of the particle filter; the samples drawn from an image are always the same")
+  verb->add_option("--seed", request->seed, "Of everything random: same seed, same results")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("--threads", request->threads, "That weigh particles; results do not depend on it")
       ->check(CLI::Range(1, 1024))

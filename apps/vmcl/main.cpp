@@ -4,6 +4,7 @@
 #include <string>
 
 #include "verbs.h"
+#include "vmcl/mrpt/error_message.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Visual Monte Carlo localization of a wheeled robot on flat ground.", "vmcl"};
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? vmcl::exit_done : vmcl::exit_failed;
   } catch (const std::exception& error) {
-    std::cerr << "vmcl: " << error.what() << '\n';
+    std::cerr << "vmcl: " << vmcl::errorMessage(error) << '\n';
     return vmcl::exit_failed;
   }
   return exit_code;

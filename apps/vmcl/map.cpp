@@ -114,7 +114,9 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   verb.add_option("--sigma-focal", options.sigma_focal,
                   "standard deviation of the given focal length, relative; 0: exact")
       ->capture_default_str();
-  verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")->capture_default_str();
+  verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class PosedImages {
   int cameraOf(const struct CameraObservation& seen);
 
   MapBuilder& builder_;
-  std::map<std::string, std::pair<int, PinholeCamera>> camera_of_label_;
+  std::map<std::string, std::pair<int, CameraCalibration>> camera_of_label_;
   int images_ = 0;
   int images_without_pose_ = 0;
   ProblemReport problems_;

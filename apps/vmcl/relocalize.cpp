@@ -9,6 +9,8 @@
 #include "relocalization_report.h"
 #include "verbs.h"
 #include "vmcl/mapping/map_file.h"
+#include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/query_image.h"
 
 namespace vmcl {
 namespace {
@@ -19,14 +21,6 @@ struct Arguments {
   uint64_t seed = EstimatorOptions().seed;
   int threads = 1;
 };
-
-/// A camera with the label of a map camera is that camera, mounted and calibrated as the map has it.
-QueryImage queryImage(const CameraObservation& observation, const KeyframeMap& map) {
-  for (const MapCamera& camera : map.cameras)
-    if (camera.label == observation.label)
-      return {observation.image.view(), camera.calibration, camera.robot_from_camera, camera.mask_rows_from_top};
-  return {observation.image.view(), observation.calibration, observation.robot_from_camera, 0};
-}
 
 struct Outcome {
   ImageResult image;
@@ -45,7 +39,7 @@ Outcome relocalizeImage(const Relocalizer& relocalizer, const CameraObservation&
     image.error = poseError({image.time, true, image.estimate.modes.front().robot_in_map}, groundtruth, max_gap);
   return {std::move(image), {}};
 } catch (const std::exception& error) {
-  return {{observation.time, observation.label}, error.what()};
+  return {{observation.time, observation.label}, errorMessage(error)};
 }
 
 /// Relocalizes all images, `threads` at a time, in the order of the log.
@@ -106,7 +100,9 @@ void addRelocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--retrieved", arguments->retrieved, "Keyframes that each image is matched with")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  verb->add_option("--seed", arguments->seed, "Same seed, same answers")->capture_default_str();
+  verb->add_option("--seed", arguments->seed, "Same seed, same answers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   verb->add_option("--threads", arguments->threads, "Images worked on at a time; more than 1 lengthens the latencies")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));

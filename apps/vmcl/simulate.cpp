@@ -40,7 +40,7 @@ void addSimulateVerb(CLI::App& app, int& exit_code) {
   verb->add_option("SCENE", arguments->scene, "scene file (YAML)")->required()->check(CLI::ExistingFile);
   verb->add_option("-o,--output", arguments->output, "the rawlog to write")->required();
   verb->add_option("--session", options.session, "the drive, one of the sessions of the scene file")->required();
-  verb->add_option("--seed", options.seed, "of the sensors' noise");
+  verb->add_option("--seed", options.seed, "of the sensors' noise")->check(CLI::NonNegativeNumber);
   verb->add_option("--simplemap", options.simplemap, "write also the true poses with images and scans, to map from");
   verb->add_option("--duration", options.duration, "stop after this time (s)")->check(CLI::NonNegativeNumber);
   verb->footer("Example: vmcl simulate rooms.yaml --session map -o map.rawlog --simplemap map.simplemap");

@@ -6,7 +6,7 @@ from command import SAMPLE, SOME_INPUT_BAD, SOURCE, CommandTest, main
 
 INI = SOURCE / 'share/config/camera.ini'
 MAP = SAMPLE / 'sample.vmap'
-LOG = SAMPLE / 'query.rawlog'
+LOG = SAMPLE / 'start.rawlog'
 
 
 class LocalizeCameraTest(CommandTest):
@@ -14,7 +14,7 @@ class LocalizeCameraTest(CommandTest):
         return ['localize', ini, '--map', vmap, '--rawlog', log, '--out', out]
 
     def test_finds_the_robot(self):
-        self.succeed(*self.localize(), '--groundtruth', SAMPLE / 'query.groundtruth.tum')
+        self.succeed(*self.localize(SAMPLE / 'query.rawlog'), '--groundtruth', SAMPLE / 'query.groundtruth.tum')
         summary = json.loads(self.path('out/summary.json').read_text())
         self.assertTrue(summary['final']['localized'])
         truth = summary['ground_truth']
@@ -48,30 +48,30 @@ class LocalizeCameraTest(CommandTest):
     def test_logs_with_a_broken_camera(self):
         for how in ('nan_intrinsics', 'missing_image', 'no_intrinsics', 'nan_mount'):
             with self.subTest(how):
-                self.assert_refused(self.localize(self.spoil('query.rawlog', how)), f'{how}.rawlog', "'camera'")
+                self.assert_refused(self.localize(self.spoil('start.rawlog', how)), f'{how}.rawlog', "'camera'")
 
     def test_log_without_a_camera(self):
-        self.assert_refused(self.localize(self.spoil('query.rawlog', 'no_camera')), 'no_camera.rawlog',
+        self.assert_refused(self.localize(self.spoil('start.rawlog', 'no_camera')), 'no_camera.rawlog',
                             'no observation')
 
     def test_log_with_odometry_that_is_not_finite(self):
         """Such readings are passed over and named; the images still tell where the robot is."""
-        result = self.vmcl(*self.localize(self.spoil('query.rawlog', 'nan_odometry')))
+        result = self.vmcl(*self.localize(self.spoil('start.rawlog', 'nan_odometry')))
         self.assert_complaint(result, SOME_INPUT_BAD, 'nan_odometry.rawlog', 'odometry')
 
     def test_images_that_are_broken(self):
         """They are named; the others are used."""
         log = self.copy(LOG)
-        images = self.path('query_Images')
+        images = self.path('start_Images')
         images.mkdir()
-        for image in (SAMPLE / 'query_Images').iterdir():
+        for image in (SAMPLE / 'start_Images').iterdir():
             (images / image.name).symlink_to(image)
         bad = sorted(images.iterdir())[7]
         for broken in (b'', b'garbage', bad.read_bytes()[:300]):
             with self.subTest(broken[:20]):
                 bad.unlink()
                 bad.write_bytes(broken)
-                self.assert_complaint(self.vmcl(*self.localize(log)), SOME_INPUT_BAD, 'query.rawlog', bad.name)
+                self.assert_complaint(self.vmcl(*self.localize(log)), SOME_INPUT_BAD, 'start.rawlog', bad.name)
 
     def test_unknown_keys(self):
         for section, key in (('vmcl', 'injection_shore'), ('MetricMap_visualKeyframes_00_creationOpts', 'map_fiel'),

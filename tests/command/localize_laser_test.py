@@ -60,7 +60,7 @@ class LocalizeLaserTest(CommandTest):
         self.assert_ini_refused(self.with_value('resolution', '0'), 'res')
 
     def test_options_out_of_range(self):
-        for option in (('--threads', '0'), ('--seed', 'x')):
+        for option in (('--threads', '0'), ('--seed', 'x'), ('--seed', '-1')):
             self.assert_refused(['localize', INI, *option], option[0])
 
     def test_broken_logs(self):

@@ -68,6 +68,7 @@ class MapTest(CommandTest):
                                 ([SIMPLE_MAP, '--trajectory', POSES, '-o', 'out.vmap'], 'trajectory'),
                                 ([SIMPLE_MAP, '-o', 'out.vmap', '--features', 'magic'], 'magic'),
                                 ([SIMPLE_MAP, '-o', 'out.vmap', '--max-features', '0'], 'max_features'),
+                                ([SIMPLE_MAP, '-o', 'out.vmap', '--seed', '-1'], 'seed'),
                                 ([SIMPLE_MAP, '-o', 'out.vmap', '--keyframe-distance', 'nan'], 'keyframe_distance'),
                                 ([SIMPLE_MAP, '-o', 'nowhere/out.vmap'], 'nowhere/out.vmap')):
             with self.subTest(arguments[-2:]):

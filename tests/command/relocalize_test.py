@@ -51,7 +51,7 @@ class RelocalizeTest(CommandTest):
         self.assert_refused([*self.relocalize(), '--groundtruth', 'broken.tum'], 'broken.tum:1')
 
     def test_options_out_of_range(self):
-        for option in (('--retrieved', '0'), ('--threads', '0'), ('--seed', 'x')):
+        for option in (('--retrieved', '0'), ('--threads', '0'), ('--seed', 'x'), ('--seed', '-1')):
             self.assert_refused([*self.relocalize(), *option], option[0])
 
 

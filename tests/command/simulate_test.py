@@ -51,7 +51,8 @@ class SimulateTest(CommandTest):
     def test_bad_arguments(self):
         for arguments, word in ((['--session', 'nowhere'], 'nowhere'), ([], 'session'),
                                 (['--session', 'map', '--duration', '-1'], 'duration'),
-                                (['--session', 'map', '--duration', 'nan'], 'duration')):
+                                (['--session', 'map', '--duration', 'nan'], 'duration'),
+                                (['--session', 'map', '--seed', '-1'], 'seed')):
             with self.subTest(arguments):
                 self.assert_refused(['simulate', SCENE, '-o', 'log.rawlog', *arguments], word)
         self.assert_refused(['simulate', 'nowhere.yaml', '--session', 'map', '-o', 'log.rawlog'], 'nowhere.yaml')

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "fake_camera_map.h"
 #include "filter_setup.h"
 #include "vmcl/mrpt/pose_cluster.h"
-#include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
 namespace {
@@ -67,34 +67,21 @@ TEST(Injection, AnImageFindsAKidnappedRobot) {
     auto filter = setup.make({-1, -0.9, 0, 0.1, 0, 0.1}, 1000);
     filter.update(nullptr, &frame, {&at_truth, 1});
     const PoseCluster cluster = dominantCluster(filter);
-    EXPECT_EQ(std::hypot(cluster.robot_in_map.x - truth.x, cluster.robot_in_map.y - truth.y) < 0.1, injecting);
+    EXPECT_EQ(std::hypot(cluster.robot_in_map.x - truth.x, cluster.robot_in_map.y - truth.y) < 0.3, injecting);
   }
 }
 
-/// A map with a camera whose image looks, sharply, like another place than where the particles are.
-class AliasedMap : public FakeMap, public RelocalizingMap {
- public:
-  explicit AliasedMap(const PlanarPose& looks_like)
-      : FakeMap([](const PlanarPose&) { return 0; }), looks_like_(looks_like) {}
-
-  void addLogLikelihoods(const mrpt::obs::CObservation&, std::span<const PlanarPose> poses, int,
-                         std::span<double> log_likelihoods) const override {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const double distance = std::hypot(poses[i].x - looks_like_.x, poses[i].y - looks_like_.y);
-      log_likelihoods[i] += 60 * std::exp(-distance * distance / 0.02);
-    }
-  }
-  PoseEstimate relocalize(const mrpt::obs::CObservation&) const override { return {{mode(looks_like_, 0.05)}, ""}; }
-  void extend(PoseBox&) const override {}
-
- private:
-  PlanarPose looks_like_;
-};
+/// Of an image that looks, sharply, like one place.
+FakeCameraMap aliasedMap(const PlanarPose& looks_like, double radius) {
+  return FakeCameraMap([=](const PlanarPose& pose) {
+    return std::hypot(pose.x - looks_like.x, pose.y - looks_like.y) < radius ? 3 : 0;
+  });
+}
 
 TEST(Injection, OneAliasedImageDoesNotMoveTheRobotTwoDo) {
   const PlanarPose looks_like{3, 2, 0};
   const auto maps = mrpt::maps::CMultiMetricMap::Create();
-  maps->maps.push_back(std::make_shared<AliasedMap>(looks_like));
+  maps->maps.push_back(std::make_shared<FakeCameraMap>(aliasedMap(looks_like, 0.2)));
   FilterSetup setup;
   setup.filter.BETA = 0.5;
   PlanarMonteCarlo filter(maps, setup.kld, setup.filter, setup.options, PoseRegion(box));
@@ -107,6 +94,43 @@ TEST(Injection, OneAliasedImageDoesNotMoveTheRobotTwoDo) {
   EXPECT_LT(moved(), 0.2);
   filter.update(nullptr, &frame, {&aliased, 1});
   EXPECT_GT(moved(), 0.9);
+}
+
+/// The image fits a disc, 3.1 % of a region that the particles cover, and may be deceptive in one case of ten: those in
+/// the disc get 0.9 + 0.1 * 0.031 of the weight.
+TEST(Injection, WithoutItOneImageMovesTheRobotNoFarther) {
+  const auto maps = mrpt::maps::CMultiMetricMap::Create();
+  maps->maps.push_back(std::make_shared<FakeCameraMap>(aliasedMap({0.5, 0.5, 0}, 0.1)));
+  FilterSetup setup;
+  setup.options.injection_share = 0;
+  const PoseRegion region({0, 1, 0, 1, 0, 1});
+  PlanarMonteCarlo filter(maps, setup.kld, setup.filter, setup.options, region);
+  filter.start(region, 20000);
+  const auto frame = someObservation();
+  filter.update(nullptr, &frame);
+  const double share = weightWhere(filter, [](const PlanarPose& p) { return std::hypot(p.x - 0.5, p.y - 0.5) < 0.1; });
+  EXPECT_NEAR(share, 0.903, 0.02);  // the histogram leaks a twentieth at the ends of the headings
+}
+
+/// One particle holds nearly all the weight, and half of them are replaced: at even odds it would be among those.
+/// Twenty seeds would let that pass once in a million.
+TEST(Injection, DoesNotDropTheParticleWithTheWeight) {
+  const auto frame = someObservation();
+  const PoseMode elsewhere = mode({3, 3, 0}, 0.1);
+  for (const bool adaptive : {false, true})
+    for (uint64_t seed = 1; seed <= 10; ++seed) {
+      FilterSetup setup;
+      setup.filter.adaptiveSampleSize = adaptive;  // draws particles anew only when the robot moves
+      setup.options.injection_share = 0.5;
+      setup.options.kidnapping_probability = 0;
+      setup.options.seed = seed;
+      auto filter = setup.make({-1, -1, -1, -1, 0, 0}, 100);
+      for (auto& particle : filter.m_particles) particle.log_w = std::log(0.01 / 99);
+      filter.m_particles[7].log_w = std::log(0.99);
+      filter.m_particles[7].d = {1, 1, 0};
+      filter.update(nullptr, &frame, {&elsewhere, 1});
+      EXPECT_GT(weightWhere(filter, [](const PlanarPose& p) { return p.x == 1; }), 0.9) << seed;
+    }
 }
 
 }  // namespace

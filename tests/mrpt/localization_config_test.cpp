@@ -127,6 +127,8 @@ TEST_F(Ini, BadParticleCountsAreRefused) {
 TEST_F(Ini, BadStartIsRefused) {
   sections_["LocalizationExperiment"]["init_PDF_min_x"] = "nan";
   EXPECT_NE(refusal().find("init_PDF_min_x: 'nan' is not a finite number"), std::string::npos) << refusal();
+  sections_["LocalizationExperiment"]["init_PDF_min_x"] = "-1e300";
+  EXPECT_NE(refusal().find("range of x goes beyond"), std::string::npos) << refusal();
   sections_["LocalizationExperiment"]["init_PDF_min_x"] = "6";
   EXPECT_NE(refusal().find("range of x is empty"), std::string::npos) << refusal();
 }
@@ -139,6 +141,17 @@ TEST_F(Ini, BadFilterOptionsAreRefused) {
   EXPECT_NE(refusal().find("BETA"), std::string::npos);
   sections_["PF_options"].erase("BETA");
   EXPECT_NE(refusal().find("BETA"), std::string::npos);
+}
+
+TEST_F(Ini, OtherAlgorithmsAreRefused) {
+  for (const char* algorithm : {"1", "2", "3"}) {
+    sections_["PF_options"]["PF_algorithm"] = algorithm;
+    EXPECT_EQ(refusal(), std::string("[PF_options] PF_algorithm = ") + algorithm +
+                             " is not supported, only 0 (pfStandardProposal)");
+  }
+  sections_["PF_options"]["PF_algorithm"] = "0";
+  sections_["PF_options"]["resamplingMethod"] = "2";
+  EXPECT_EQ(refusal(), "[PF_options] adaptiveSampleSize needs resamplingMethod = 0 (prMultinomial)");
 }
 
 TEST_F(Ini, PosesInSpaceAreRefused) {

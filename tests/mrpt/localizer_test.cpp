@@ -2,10 +2,11 @@
 #include "vmcl/mrpt/localizer.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include "fake_camera_map.h"
 #include "filter_setup.h"
-#include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
 namespace {
@@ -137,13 +138,65 @@ TEST(Localizer, SameSeedSameFrames) {
   EXPECT_EQ(run(), run());
 }
 
+mrpt::obs::CActionCollection::Ptr movementInSpace(double x) {
+  mrpt::obs::CActionRobotMovement3D movement;
+  movement.poseChange.mean = mrpt::poses::CPose3D(x, 0, 0);
+  movement.poseChange.cov = mrpt::math::CMatrixDouble66(Eigen::Matrix<double, 6, 6>::Identity() * 1e-6);
+  auto actions = mrpt::obs::CActionCollection::Create();
+  actions->insert(movement);
+  return actions;
+}
+
+// A cluster that moves otherwise than the odometry says never counts as localized.
+TEST(Localizer, FollowsMovementsInSpace) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  const auto frame = std::make_shared<mrpt::obs::CSensoryFrame>(someObservation());
+  for (int i = 0; i < 3; ++i) {
+    const auto result = localizer.step(movementInSpace(1), frame, nullptr);
+    EXPECT_NEAR(result->cluster.robot_in_map.x, 1 + i, 0.02);
+    EXPECT_EQ(result->localized, i > 0);
+  }
+}
+
+TEST(Localizer, LeavesOutMovementsThatAreNone) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  const auto frame = std::make_shared<mrpt::obs::CSensoryFrame>(someObservation());
+  localizer.step(nullptr, frame, nullptr);
+  for (const double x : {1e300, 1e4, std::nan("")})
+    for (const auto& action : {movementInSpace(x), std::make_shared<mrpt::obs::CActionCollection>(movement(x, 0))}) {
+      EXPECT_NEAR(localizer.step(action, frame, nullptr)->cluster.robot_in_map.x, 1, 0.02);
+      EXPECT_EQ(localizer.takeProblems().size(), 1U) << x;
+    }
+}
+
+TEST(Localizer, LeavesOutJumpsOfTheOdometry) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  localizer.step(nullptr, nullptr, odometry(0));
+  localizer.step(nullptr, nullptr, commentAt(0));
+  localizer.step(nullptr, nullptr, odometry(0.25));
+  for (const double x : {1e300, 0.0, -1e4}) {
+    localizer.step(nullptr, nullptr, odometry(x));
+    EXPECT_EQ(localizer.takeProblems(), std::vector<std::string>{"odometry '': a jump of more than 1000 m"}) << x;
+  }
+  localizer.step(nullptr, nullptr, odometry(-1e4 + 0.5));
+  EXPECT_NEAR(localizer.step(nullptr, nullptr, commentAt(1))->cluster.robot_in_map.x, 1.75, 0.02);
+}
+
+TEST(Localizer, ItsSeedIsThatOfTheSamplesDrawnFromImages) {
+  const auto camera = std::make_shared<FakeCameraMap>([](const PlanarPose&) { return 0; });
+  LocalizationConfig config = tracking();
+  config.monte_carlo.seed = 7;
+  Localizer(config, mapsWith(camera)).step(nullptr, nullptr, commentAt(0));
+  EXPECT_EQ(camera->seeds, std::vector<uint64_t>{7});
+}
+
 /// A camera's map to which every observation is broken.
-class BrokenMap : public FakeMap, public RelocalizingMap {
+class BrokenMap : public FakeCameraMap {
  public:
-  BrokenMap() : FakeMap([](const PlanarPose&) { return 0; }) {}
-  void addLogLikelihoods(const CObservation&, std::span<const PlanarPose>, int, std::span<double>) const override {}
-  PoseEstimate relocalize(const CObservation&) const override { throw std::runtime_error("camera 'front': no image"); }
-  void extend(PoseBox&) const override {}
+  BrokenMap() : FakeCameraMap([](const PlanarPose&) { return 0; }) {}
+  PoseEstimate relocalize(const CObservation&, uint64_t) const override {
+    throw std::runtime_error("camera 'front': no image");
+  }
 };
 
 TEST(Localizer, NamesBrokenObservationsAndGoesOn) {

@@ -98,6 +98,7 @@ TEST(PlanarMonteCarlo, RefusesBadOptions) {
   refuses([](FilterSetup& s) { s.options.recovery_alpha_fast = 2; });
   refuses([](FilterSetup& s) { s.options.aliasing_probability = 1; });
   refuses([](FilterSetup& s) { s.options.threads = 0; });
+  refuses([](FilterSetup& s) { s.filter.PF_algorithm = CParticleFilter::pfOptimalProposal; });
   refuses([](FilterSetup& s) {
     s.filter.adaptiveSampleSize = true;
     s.filter.resamplingMethod = CParticleFilter::prSystematic;

@@ -62,6 +62,13 @@ TEST(PoseCluster, FindsTheMiddleOfASpreadCloud) {
   EXPECT_GT(cluster.share, 0.98);
 }
 
+TEST(PoseCluster, FarAwayThereAreStillTwoSides) {
+  auto particles = none();
+  for (const double x : {-1e300, 1e300}) add(particles, {x, 0, 0}, 0.3);
+  add(particles, {0, 0, 0}, 0.4);
+  EXPECT_NEAR(dominantCluster(particles).share, 0.4, 1e-12);
+}
+
 TEST(PoseCluster, NeedsParticles) { EXPECT_THROW(dominantCluster(none()), std::invalid_argument); }
 
 }  // namespace

@@ -49,6 +49,14 @@ TEST(PoseDensity, IsZeroFarAway) {
   EXPECT_GT(density({0.05, 0, 0}), 0);
 }
 
+TEST(PoseDensity, TakesPosesHoweverFarAway) {
+  PoseDensity density;
+  density.add({1e300, -1e300, 0}, 1);
+  EXPECT_GT(density({1e300, -1e300, 0}), 0);
+  EXPECT_EQ(density({0, 0, 0}), 0);
+  EXPECT_EQ(density({-1e300, -1e300, 0}), 0);
+}
+
 TEST(PoseDensity, FindsAUniformDensity) {
   PoseDensity density;
   Random random(7);

@@ -12,6 +12,9 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <limits>
 
 #include "../datasets/scratch_directory.h"
@@ -144,7 +147,7 @@ TEST_F(VisualKeyframeMapTest, ManyPosesAtOnceAsOneByOne) {
 
 TEST_F(VisualKeyframeMapTest, RelocalizesByTheImageAlone) {
   const VisualKeyframeMap map({}, content_);
-  const PoseEstimate estimate = map.relocalize(imageFrom(truth_));
+  const PoseEstimate estimate = map.relocalize(imageFrom(truth_), 1);
   ASSERT_TRUE(estimate.found()) << estimate.reason;
   EXPECT_NEAR(estimate.modes[0].robot_in_map.x, truth_.x, 0.03);
   EXPECT_NEAR(estimate.modes[0].robot_in_map.phi, truth_.phi, 0.01);
@@ -159,7 +162,7 @@ TEST_F(VisualKeyframeMapTest, BrokenImagesAreNamedAndSayNothing) {
   map.addLogLikelihoods(image, {&truth_, 1}, 1, sums);
   EXPECT_EQ(sums[0], 7);
   try {
-    map.relocalize(image);
+    map.relocalize(image, 1);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("'front'"), std::string::npos) << error.what();
@@ -189,7 +192,7 @@ TEST_F(VisualKeyframeMapTest, IsEmptyUntilFilled) {
   EXPECT_TRUE(map.isEmpty());
   EXPECT_EQ(map.content(), nullptr);
   EXPECT_EQ(logLikelihood(map, imageFrom(truth_), truth_), 0);
-  EXPECT_FALSE(map.relocalize(imageFrom(truth_)).found());
+  EXPECT_FALSE(map.relocalize(imageFrom(truth_), 1).found());
 }
 
 TEST_F(VisualKeyframeMapTest, IsBuiltFromASimplemap) {
@@ -224,6 +227,66 @@ TEST_F(VisualKeyframeMapTest, AMapFromAFileStaysAsItIs) {
   expectPeakAt(truth_, map, imageFrom(truth_));
   map.saveMetricMapRepresentationToFile((scratch.path() / "again").string());
   EXPECT_EQ(encodeMap(loadMap(scratch.path() / "again.vmap")), encodeMap(*content_));
+}
+
+TEST_F(VisualKeyframeMapTest, GivenContentIsNotLostByInserting) {
+  VisualKeyframeMap given({}, content_);
+  EXPECT_FALSE(given.insertObservation(imageFrom(truth_)));
+  EXPECT_EQ(given.content(), content_);
+  given.clear();
+  EXPECT_TRUE(given.insertObservation(imageFrom(truth_)));
+}
+
+TEST_F(VisualKeyframeMapTest, OneLabelIsOneCamera) {
+  VisualKeyframeMap map;
+  CObservationImage image = imageFrom(truth_);
+  EXPECT_TRUE(map.insertObservation(image));
+  image.cameraParams.fx(image.cameraParams.fx() * 1.1);
+  EXPECT_FALSE(map.insertObservation(image));
+  image.sensorLabel = "rear";
+  EXPECT_TRUE(map.insertObservation(image));
+}
+
+TEST_F(VisualKeyframeMapTest, AMapThatCannotBeBuiltSaysNothing) {
+  VisualKeyframeMap map;
+  CObservationImage blank = imageFrom(truth_);
+  std::vector<uint8_t> grey(blank.image.getWidth() * blank.image.getHeight(), 90);
+  blank.image.loadFromMemoryBuffer(static_cast<unsigned>(blank.image.getWidth()),
+                                   static_cast<unsigned>(blank.image.getHeight()), false, grey.data());
+  EXPECT_TRUE(map.insertObservation(blank));
+  EXPECT_THROW(map.content(), std::runtime_error);
+  std::vector<double> sums(1, 7);
+  EXPECT_EQ(map.addLogLikelihoods(blank, {&truth_, 1}, 1, sums), 0);
+  EXPECT_EQ(sums[0], 7);
+  EXPECT_EQ(logLikelihood(map, blank, truth_), 0);
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which needs the address space that the test takes away
+TEST_F(VisualKeyframeMapTest, DoesWithoutThreadsWhereThereAreNone) {
+  const VisualKeyframeMap map({}, content_);
+  const CObservationImage image = imageFrom(truth_);
+  const std::vector<PlanarPose> poses(100, truth_);
+  std::vector<double> alone(poses.size()), threaded(poses.size());
+  map.addLogLikelihoods(image, poses, 1, alone);
+  const auto weighWithoutMemoryForStacks = [&] {
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_AS, &none);
+    map.addLogLikelihoods(image, poses, 8, threaded);
+    _exit(threaded == alone ? 0 : 1);
+  };
+  EXPECT_EXIT(weighWithoutMemoryForStacks(), ::testing::ExitedWithCode(0), "");
+}
+#endif
+
+TEST_F(VisualKeyframeMapTest, CountsIndependentMatches) {
+  VisualMapOptions all;
+  all.match_weight = 1;
+  const VisualKeyframeMap map({}, content_), undivided(all, content_);
+  const CObservationImage image = imageFrom(truth_);
+  std::vector<double> sums(1);
+  const double matches = undivided.addLogLikelihoods(image, {&truth_, 1}, 1, sums);
+  EXPECT_GT(matches, 10);
+  EXPECT_NEAR(map.addLogLikelihoods(image, {&truth_, 1}, 1, sums), VisualMapOptions().match_weight * matches, 1e-9);
 }
 
 TEST_F(VisualKeyframeMapTest, ShowsLandmarksAndKeyframes) {

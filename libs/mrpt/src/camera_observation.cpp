@@ -7,6 +7,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
+
+#include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/pose_conversion.h"
 
 namespace vmcl {
 namespace {
@@ -29,13 +33,6 @@ CameraCalibration calibrationOf(const mrpt::img::TCamera& camera) {
   }
   calibration.check();
   return calibration;
-}
-
-Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
-  Rigid3 rigid = Rigid3::Identity();
-  rigid.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
-  if (!rigid.matrix().allFinite()) throw std::runtime_error("the camera's pose is not finite");
-  return rigid;
 }
 
 Image greyImage(const mrpt::img::CImage& image) {
@@ -66,12 +63,13 @@ CameraObservation convert(const mrpt::obs::CObservation& observation, const mrpt
   if (observation.timestamp == INVALID_TIMESTAMP) throw std::runtime_error("no time stamp");
   out.time = mrpt::Clock::toDouble(observation.timestamp);
   out.calibration = calibrationOf(camera);
-  out.robot_from_camera = rigidOf(robot_from_camera);
+  out.robot_from_camera = toRigid3(robot_from_camera);
+  if (!out.robot_from_camera.matrix().allFinite()) throw std::runtime_error("the camera's pose is not finite");
   out.image = greyImage(image);
   checkSize(out.image, out.calibration.pinhole);
   return out;
 } catch (const std::exception& error) {
-  throw std::runtime_error("camera '" + observation.sensorLabel + "': " + error.what());
+  throw std::runtime_error("camera '" + observation.sensorLabel + "': " + errorMessage(error));
 }
 
 }  // namespace
@@ -86,6 +84,14 @@ std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation
                    depth_camera->sensorPose + depth_camera->relativePoseIntensityWRTDepth);
   }
   return std::nullopt;
+}
+
+bool sameCalibration(const CameraCalibration& a, const CameraCalibration& b) {
+  const auto values = [](const CameraCalibration& of) {
+    const PinholeCamera& pinhole = of.pinhole;
+    return std::tuple(pinhole.width, pinhole.height, pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, of.distortion);
+  };
+  return values(a) == values(b);
 }
 
 }  // namespace vmcl

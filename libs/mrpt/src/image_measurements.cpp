@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vmcl/mrpt/camera_observation.h"
+#include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/query_image.h"
 
 namespace vmcl {
 namespace {
@@ -33,7 +34,7 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::C
   try {
     measure(observation, *measurement);
   } catch (const std::exception& error) {
-    measurement->error = error.what();
+    measurement->error = errorMessage(error);
   }
   recent_.push_front({&observation, observation.timestamp, observation.sensorLabel, measurement});
   if (recent_.size() > remembered) recent_.pop_back();
@@ -43,15 +44,7 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::C
 void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const {
   const auto camera = cameraObservation(observation);
   if (!camera) return;
-  QueryImage query{camera->image.view(), camera->calibration, camera->robot_from_camera, 0};
-  const auto& cameras = relocalizer_.map().cameras;
-  const auto same = std::find_if(cameras.begin(), cameras.end(),
-                                 [&](const MapCamera& of_map) { return of_map.label == camera->label; });
-  if (same != cameras.end()) {
-    query.calibration = same->calibration;
-    query.robot_from_camera = same->robot_from_camera;
-    query.mask_rows_from_top = same->mask_rows_from_top;
-  }
+  const QueryImage query = queryImage(*camera, relocalizer_.map());
   measurement.problem = relocalizer_.match({&query, 1}).problem;
   if (measurement.problem.matches.empty()) return;
   LikelihoodOptions of_particles = options_.relocalizer.estimator.likelihood;

@@ -171,6 +171,14 @@ void readMotionModel(const CConfigFileMemory& ini, LocalizationConfig& config) {
   config.motion_model.gaussianModel.minStdPHI = mrpt::DEG2RAD(min_std_heading_deg);
 }
 
+void checkSupported(const PlanarMonteCarlo::ParticleFilterOptions& options) {
+  try {
+    PlanarMonteCarlo::check(options);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("[PF_options] ") + error.what());
+  }
+}
+
 void readFilter(const CConfigFileMemory& ini, LocalizationConfig& config) {
   const auto demand = [](bool valid, const char* key) {
     if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
@@ -184,8 +192,11 @@ void readFilter(const CConfigFileMemory& ini, LocalizationConfig& config) {
   demand(kld.KLD_binSize_PHI > 0 && std::isfinite(kld.KLD_binSize_PHI), "[KLD_options] KLD_binSize_PHI_deg");
   demand(kld.KLD_delta > 0 && kld.KLD_delta < 1, "[KLD_options] KLD_delta");
   demand(kld.KLD_epsilon > 0 && kld.KLD_epsilon < 1, "[KLD_options] KLD_epsilon");
+  config.filter.PF_algorithm = ini.read_enum("PF_options", "PF_algorithm", config.filter.PF_algorithm);
+  checkSupported(config.filter);  // at once, because MRPT asks for more keys with another algorithm
   config.filter.loadFromConfigFile(ini, "PF_options");
   demand(config.filter.BETA >= 0 && config.filter.BETA <= 1, "[PF_options] BETA");
+  checkSupported(config.filter);
   demand(config.filter.powFactor > 0 && config.filter.powFactor <= 1, "[PF_options] powFactor");
 }
 

@@ -1,38 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
-#include <mrpt/serialization/CArchive.h>
 #include <mrpt/system/filesystem.h>
 
 #include <stdexcept>
 
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/localization_config.h"
+#include "vmcl/mrpt/object_file.h"
 #include "vmcl/mrpt/visual_keyframe_map.h"
 
 namespace vmcl {
 namespace {
 
 using mrpt::maps::CMultiMetricMap;
-using mrpt::serialization::archiveFrom;
 
 void fillFromFile(CMultiMetricMap& maps, const std::filesystem::path& file) {
   const std::string kind = mrpt::system::extractFileExtension(file.string(), /*ignore_gz=*/true);
-  mrpt::io::CFileGZInputStream stream;
-  if (!std::filesystem::is_regular_file(file) || !stream.open(file.string()))
-    throw std::runtime_error("cannot be opened");
   if (kind == "simplemap") {
     mrpt::maps::CSimpleMap simple_map;
-    archiveFrom(stream) >> simple_map;
-    if (simple_map.size() == 0) throw std::runtime_error("is an empty simplemap");
+    readObject(file, simple_map);
+    if (simple_map.size() == 0) throw std::runtime_error(file.string() + ": is an empty simplemap");
     maps.loadFromProbabilisticPosesAndObservations(simple_map);
   } else if (kind == "gridmap") {
     const auto grid = maps.mapByClass<mrpt::maps::COccupancyGridMap2D>();
-    if (!grid) throw std::runtime_error("needs [MetricMap] occupancyGrid_count = 1");
-    archiveFrom(stream) >> *grid;
+    if (!grid) throw std::runtime_error(file.string() + ": needs [MetricMap] occupancyGrid_count = 1");
+    readObject(file, *grid);
   } else {
-    throw std::runtime_error("is neither a .simplemap nor a .gridmap nor a .vmap");
+    throw std::runtime_error(file.string() + ": is neither a .simplemap nor a .gridmap nor a .vmap");
   }
 }
 
@@ -51,8 +46,8 @@ CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config) {
   } catch (const std::exception& error) {
     throw std::runtime_error(config.ini_file.string() + ": " + errorMessage(error));
   }
+  if (!config.map_file.empty()) fillFromFile(*maps, config.map_file);
   try {
-    if (!config.map_file.empty()) fillFromFile(*maps, config.map_file);
     refuseEmptyVisualMaps(*maps);
   } catch (const std::exception& error) {
     const auto& file = config.map_file.empty() ? config.ini_file : config.map_file;

@@ -2,11 +2,16 @@
 #include "vmcl/mrpt/localizer.h"
 
 #include <mrpt/core/Clock.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/pose_conversion.h"
 #include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
@@ -17,8 +22,13 @@ using mrpt::maps::COccupancyGridMap2D;
 using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
+using mrpt::poses::CPosePDFGaussian;
 
-bool isFinite(const mrpt::poses::CPose2D& pose) { return isFinite(PlanarPose{pose.x(), pose.y(), pose.phi()}); }
+constexpr double max_movement = 1e3;  // m between two readings: more is no movement but a fault
+
+bool isPlausible(const PlanarPose& movement) {
+  return isFinite(movement) && std::hypot(movement.x, movement.y) <= max_movement;
+}
 
 PoseRegion startRegion(const LocalizationConfig& config, const CMultiMetricMap& maps) {
   if (!config.start_in_free_space) return PoseRegion(config.start);
@@ -44,11 +54,18 @@ PoseRegion anywhere(const LocalizationConfig& config, const CMultiMetricMap& map
   return PoseRegion(box);
 }
 
-PlanarPose meanMotion(const CActionCollection* action) {
-  const auto movement = action ? action->getBestMovementEstimation() : nullptr;
-  if (!movement) return {};
-  const mrpt::poses::CPose2D mean = movement->poseChange->getMeanVal();
-  return {mean.x(), mean.y(), mean.phi()};
+/// None: the action tells of no movement.
+std::optional<CPosePDFGaussian> movementOf(const CActionCollection* action) {
+  if (!action) return std::nullopt;
+  CPosePDFGaussian movement;
+  if (const auto planar = action->getBestMovementEstimation()) {
+    movement.copyFrom(*planar->poseChange);
+    return movement;
+  }
+  const auto spatial = action->getActionByClass<mrpt::obs::CActionRobotMovement3D>();
+  if (!spatial) return std::nullopt;
+  movement.copyFrom(spatial->poseChange);
+  return movement;
 }
 
 }  // namespace
@@ -65,16 +82,11 @@ std::vector<std::string> Localizer::takeProblems() { return std::exchange(proble
 std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& action, const CSensoryFrame::Ptr& frame,
                                                  const CObservation::Ptr& observation) {
   if (const auto reading = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) {
-    if (!isFinite(reading->odometry)) {
-      problems_.push_back("odometry '" + reading->sensorLabel + "': a reading that is not finite");
-      return std::nullopt;
-    }
-    odometry_ = reading->odometry;
-    if (!odometry_applied_) odometry_applied_ = odometry_;
+    addOdometry(*reading);
     return std::nullopt;
   }
   if (steps_++ < config_.rawlog_offset) return std::nullopt;
-  if (frame) return update(hasFiniteMotion(action.get()) ? action.get() : nullptr, *frame);
+  if (frame) return update(isUsable(action.get()) ? action.get() : nullptr, *frame);
   if (!observation || !maps_->canComputeObservationLikelihood(*observation)) return std::nullopt;
   CSensoryFrame single;
   single.insert(observation);
@@ -82,20 +94,35 @@ std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& a
   return update(&motion, single);
 }
 
-bool Localizer::hasFiniteMotion(const CActionCollection* action) {
-  const auto movement = action ? action->getBestMovementEstimation() : nullptr;
-  if (!movement || isFinite(movement->poseChange->getMeanVal())) return true;
-  problems_.push_back("a movement that is not finite");
+bool Localizer::isUsable(const CActionCollection* action) {
+  const auto movement = movementOf(action);
+  const bool boundless = !movement && action && action->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
+  if (!boundless && !movement) return true;
+  if (movement && isPlausible(toPlanarPose(movement->mean)) && movement->cov.asEigen().allFinite()) return true;
+  problems_.push_back("a movement that is not finite or of more than 1000 m");
   return false;
+}
+
+void Localizer::addOdometry(const mrpt::obs::CObservationOdometry& reading) {
+  const std::string sensor = "odometry '" + reading.sensorLabel + "': ";
+  const PlanarPose pose = toPlanarPose(reading.odometry);
+  if (!isFinite(pose)) {
+    problems_.push_back(sensor + "a reading that is not finite");
+    return;
+  }
+  const PlanarPose increment = odometry_ ? inverse(*odometry_) * pose : PlanarPose();
+  odometry_ = pose;
+  if (isPlausible(increment))
+    moved_ = moved_ * increment;
+  else
+    problems_.push_back(sensor + "a jump of more than 1000 m");
 }
 
 /// With the odometry readings so far; when there are none the robot may have moved by the model's least noise.
 CActionCollection Localizer::motionSinceLastUpdate() {
-  mrpt::poses::CPose2D increment;
-  if (odometry_) increment = *odometry_ - *odometry_applied_;
-  odometry_applied_ = odometry_;
+  const PlanarPose moved = std::exchange(moved_, {});
   mrpt::obs::CActionRobotMovement2D movement;
-  movement.computeFromOdometry(increment, config_.motion_model);
+  movement.computeFromOdometry({moved.x, moved.y, moved.phi}, config_.motion_model);
   CActionCollection motion;
   motion.insert(movement);
   return motion;
@@ -109,7 +136,7 @@ CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode
       for (const auto& map : maps_->maps) {
         const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
         if (!relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
-        const PoseEstimate estimate = relocalizing->relocalize(*observation);
+        const PoseEstimate estimate = relocalizing->relocalize(*observation, config_.monte_carlo.seed);
         modes.insert(modes.end(), estimate.modes.begin(), estimate.modes.end());
         if (estimate.found()) inliers += static_cast<int>(estimate.modes.front().inliers.size());
       }
@@ -140,7 +167,8 @@ std::optional<LocalizationFrame> Localizer::update(const CActionCollection* acti
   std::vector<PoseMode> modes;
   const CSensoryFrame used = usable(frame, modes, result.inliers);
   const CActionCollection* const motion = started_ ? action : nullptr;
-  if (expected_) expected_ = *expected_ * meanMotion(motion);
+  if (const auto movement = movementOf(motion); expected_ && movement)
+    expected_ = *expected_ * toPlanarPose(movement->mean);
   if (used.size() == 0) {
     filter_.update(motion, nullptr);
     return std::nullopt;

@@ -14,7 +14,6 @@
 #include <string>
 
 #include "vmcl/mrpt/mode_mixture.h"
-#include "vmcl/mrpt/pose_density.h"
 #include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
@@ -37,6 +36,10 @@ double logSumExp(std::span<const double> values) {
   return top + std::log(sum);
 }
 
+bool allFinite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
 /// MRPT's generator as new: randomize() alone would keep the spare half of its last pair of normal numbers.
 void seedMrpt(uint64_t seed) {
   mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(static_cast<uint32_t>(seed ^ (seed >> 32)));
@@ -53,6 +56,14 @@ void PlanarMonteCarloOptions::check() const {
     throw std::invalid_argument("threads = " + std::to_string(threads) + " is not in [1, 1024]");
 }
 
+void PlanarMonteCarlo::check(const ParticleFilterOptions& options) {
+  if (options.PF_algorithm != CParticleFilter::pfStandardProposal)
+    throw std::invalid_argument("PF_algorithm = " + std::to_string(options.PF_algorithm) +
+                                " is not supported, only 0 (pfStandardProposal)");
+  if (options.adaptiveSampleSize && options.resamplingMethod != CParticleFilter::prMultinomial)
+    throw std::invalid_argument("adaptiveSampleSize needs resamplingMethod = 0 (prMultinomial)");
+}
+
 PlanarMonteCarlo::PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, const KldOptions& kld_options,
                                    const ParticleFilterOptions& filter_options,
                                    const PlanarMonteCarloOptions& monte_carlo_options, const PoseRegion& anywhere)
@@ -60,11 +71,11 @@ PlanarMonteCarlo::PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, co
       filter_options_(filter_options),
       monte_carlo_options_(monte_carlo_options),
       anywhere_(anywhere),
-      recovery_(monte_carlo_options.recovery_alpha_slow, monte_carlo_options.recovery_alpha_fast),
+      image_recovery_(monte_carlo_options.recovery_alpha_slow, monte_carlo_options.recovery_alpha_fast),
+      other_recovery_(image_recovery_),
       random_(monte_carlo_options.seed, 1) {
   monte_carlo_options_.check();
-  if (filter_options_.adaptiveSampleSize && filter_options_.resamplingMethod != CParticleFilter::prMultinomial)
-    throw std::invalid_argument("adaptiveSampleSize needs resamplingMethod = 0 (prMultinomial)");
+  check(filter_options_);
   options.metricMap = map_;
   options.KLD_params = kld_options;
   seedMrpt(monte_carlo_options.seed);
@@ -83,18 +94,13 @@ void PlanarMonteCarlo::start(const PoseRegion& region, int particles) {
 
 void PlanarMonteCarlo::update(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame,
                               std::span<const PoseMode> modes) {
-  if (filter_options_.PF_algorithm != CParticleFilter::pfStandardProposal) return runStockAlgorithm(action, frame);
   if (action) predict(*action);
   if (!frame) return;
-  weigh(*frame, inject(modes));
+  drawn_anew_.assign(m_particles.size(), false);
+  recover();
+  inject(modes);
+  weigh(*frame);
   resample();
-}
-
-void PlanarMonteCarlo::runStockAlgorithm(const mrpt::obs::CActionCollection* action,
-                                         const mrpt::obs::CSensoryFrame* frame) {
-  prediction_and_update(action, frame, filter_options_);
-  normalize();
-  effective_share_ = ESS();
 }
 
 /// Weights that sum to one; MRPT's normalizeWeights() makes the largest one.
@@ -108,80 +114,90 @@ void PlanarMonteCarlo::normalize() {
 void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
   if (!action.getBestMovementEstimation() && !action.getActionByClass<mrpt::obs::CActionRobotMovement3D>()) return;
   prediction_and_update_pfStandardProposal(&action, nullptr, filter_options_);
+  for (const auto& particle : m_particles)
+    if (!isFinite(planarPose(particle.d))) throw std::runtime_error("a movement whose noise is not finite");
   normalize();
 }
 
-/// What is replaced is drawn at random, so it must not matter which particle it is. An adaptive sample size has drawn
-/// them anew in the prediction.
+/// What is replaced is drawn at random, so it must not matter which particle it is.
 void PlanarMonteCarlo::equalizeWeights() {
-  if (filter_options_.adaptiveSampleSize) return;
+  const auto is_first = [&](const auto& particle) { return particle.log_w == m_particles.front().log_w; };
+  if (std::all_of(m_particles.begin(), m_particles.end(), is_first)) return;
   performResampling(filter_options_, m_particles.size());
   normalize();
 }
 
 template <typename Draw>
-void PlanarMonteCarlo::replaceParticles(std::size_t count, Draw&& draw) {
+double PlanarMonteCarlo::replaceParticles(double share, Draw&& draw) {
   const std::size_t size = m_particles.size();
-  for (std::size_t i = 0; i < count; ++i)
-    std::swap(m_particles[i], m_particles[i + random_.below(static_cast<uint32_t>(size - i))]);
-  double kept = 0;
-  for (std::size_t i = count; i < size; ++i) kept += std::exp(m_particles[i].log_w);
-  const double share = static_cast<double>(count) / static_cast<double>(size);
+  const auto count = static_cast<std::size_t>(share * static_cast<double>(size));
+  if (count == 0) return 0;
+  equalizeWeights();
   for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t chosen = i + random_.below(static_cast<uint32_t>(size - i));
+    std::swap(m_particles[i], m_particles[chosen]);
+    drawn_anew_[chosen] = drawn_anew_[i];
+    drawn_anew_[i] = true;
     const PlanarPose pose = draw();
     m_particles[i].d = {pose.x, pose.y, pose.phi};
-    m_particles[i].log_w = -std::log(static_cast<double>(size));
   }
-  for (std::size_t i = count; i < size; ++i) m_particles[i].log_w += std::log1p(-share) - std::log(kept);
+  return static_cast<double>(count) / static_cast<double>(size);
 }
 
-/// Returns the logarithm of uniform density over proposal density for each particle, or nothing if no image was used.
-std::vector<double> PlanarMonteCarlo::inject(std::span<const PoseMode> modes) {
-  const double lost_share = recovery_.enabled() ? recovery_.randomShare() : 0;
-  const double size = static_cast<double>(m_particles.size());
-  const auto countOf = [&](double share) { return static_cast<std::size_t>(std::min(share, 0.95) * size); };
-  if (lost_share > 0) recovery_.restart();
-  if (modes.empty() || monte_carlo_options_.injection_share == 0 || anywhere_.volume() == 0) {
-    if (const std::size_t count = countOf(lost_share); count > 0) {
-      equalizeWeights();
-      replaceParticles(count, [&] { return anywhere_.draw(random_); });
-    }
-    return {};
-  }
-  const double kidnapped = std::max(lost_share, monte_carlo_options_.kidnapping_probability);
-  const std::size_t count = countOf(std::max(lost_share, monte_carlo_options_.injection_share));
-  if (count == 0) return {};
-  equalizeWeights();
-  PoseDensity predicted;
-  for (const auto& particle : m_particles) predicted.add(planarPose(particle.d), std::exp(particle.log_w));
+void PlanarMonteCarlo::recover() {
+  constexpr double max_share = 0.9;
+  const double lost_share = std::max(image_recovery_.randomShare(), other_recovery_.randomShare());
+  replaceParticles(std::min(lost_share, max_share), [&] { return anywhere_.draw(random_); });
+}
+
+void PlanarMonteCarlo::inject(std::span<const PoseMode> modes) {
+  if (modes.empty() || monte_carlo_options_.injection_share == 0 || anywhere_.volume() == 0) return;
+  const PoseDensity predicted = density();
   const ModeMixture mixture(modes);
-  replaceParticles(count, [&] { return mixture.draw(random_); });
-  const double share = static_cast<double>(count) / size;
-  const double uniform = 1 / anywhere_.volume();
-  std::vector<double> log_uniform_ratios;
+  const double share = replaceParticles(monte_carlo_options_.injection_share, [&] { return mixture.draw(random_); });
+  if (share == 0) return;
+  const double kidnapped = monte_carlo_options_.kidnapping_probability;
   for (auto& particle : m_particles) {
     const PlanarPose pose = planarPose(particle.d);
-    const double density = predicted(pose);
-    const double belief = (1 - kidnapped) * density + kidnapped * uniform;
-    const double proposal = (1 - share) * density + share * mixture.density(pose);
+    const double belief = (1 - kidnapped) * predicted(pose) + kidnapped / anywhere_.volume();
+    const double proposal = (1 - share) * predicted(pose) + share * mixture.density(pose);
     particle.log_w += std::log(std::max(belief, std::numeric_limits<double>::min()) / proposal);
-    log_uniform_ratios.push_back(std::log(uniform / proposal));
   }
-  return log_uniform_ratios;
 }
 
-void PlanarMonteCarlo::allowForAliasing(std::span<const double> log_uniform_ratios,
-                                        std::span<double> log_likelihoods) const {
+/// Of the weighted particles.
+PoseDensity PlanarMonteCarlo::density() const {
+  PoseDensity density;
+  for (const auto& particle : m_particles) density.add(planarPose(particle.d), std::exp(particle.log_w));
+  return density;
+}
+
+void PlanarMonteCarlo::allowForAliasing(std::span<double> log_likelihoods) const {
   const double aliasing = monte_carlo_options_.aliasing_probability;
-  if (log_uniform_ratios.empty() || aliasing == 0) return;
-  std::vector<double> weighed(log_likelihoods.begin(), log_likelihoods.end());
-  for (std::size_t i = 0; i < weighed.size(); ++i) weighed[i] += log_uniform_ratios[i];
-  const double log_mean = logSumExp(weighed) - std::log(static_cast<double>(weighed.size()));
+  if (aliasing == 0 || anywhere_.volume() == 0) return;
+  const PoseDensity belief = density();
+  std::vector<double> over_the_map(log_likelihoods.begin(), log_likelihoods.end());
+  for (std::size_t i = 0; i < over_the_map.size(); ++i) {
+    const auto& particle = m_particles[i];
+    over_the_map[i] += particle.log_w - std::log(anywhere_.volume() * belief(planarPose(particle.d)));
+  }
+  const double log_mean = logSumExp(over_the_map);
   for (double& value : log_likelihoods)
     value = logSumExp(std::array{value + std::log1p(-aliasing), log_mean + std::log(aliasing)});
 }
 
-void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const double> log_uniform_ratios) {
+/// By the particles that the prediction brought: those drawn anew would make the mean fall, and it more of them.
+void PlanarMonteCarlo::judge(RecoveryAverages& recovery, std::span<const double> log_likelihoods, double factor) const {
+  std::vector<double> log_weights, log_products;
+  for (std::size_t i = 0; i < log_likelihoods.size(); ++i) {
+    if (drawn_anew_[i]) continue;
+    log_weights.push_back(m_particles[i].log_w);
+    log_products.push_back(m_particles[i].log_w + factor * log_likelihoods[i]);
+  }
+  if (!log_weights.empty()) recovery.add(logSumExp(log_products) - logSumExp(log_weights));
+}
+
+void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
   std::vector<PlanarPose> poses;
   std::vector<mrpt::poses::CPose3D> mrpt_poses;
   for (const auto& particle : m_particles) {
@@ -189,27 +205,28 @@ void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame, std::span<co
     mrpt_poses.emplace_back(mrpt::math::TPose3D(particle.d));
   }
   std::vector<double> of_images(poses.size()), of_others(poses.size());
+  double matches = 0;
   bool others = false;
   for (const auto& observation : frame)
     for (const auto& map : map_->maps) {
       if (!map->canComputeObservationLikelihood(*observation)) continue;
       if (const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get())) {
-        relocalizing->addLogLikelihoods(*observation, poses, monte_carlo_options_.threads, of_images);
+        matches += relocalizing->addLogLikelihoods(*observation, poses, monte_carlo_options_.threads, of_images);
         continue;
       }
       others = true;
       for (std::size_t i = 0; i < poses.size(); ++i)
         of_others[i] += map->computeObservationLikelihood(*observation, mrpt_poses[i]);
     }
-  allowForAliasing(log_uniform_ratios, of_images);
-  std::vector<double> weighed_others;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    double& log_weight = m_particles[i].log_w;
-    weighed_others.push_back(log_weight + of_others[i] * filter_options_.powFactor);
-    log_weight = weighed_others.back() + of_images[i] * filter_options_.powFactor;
-    if (!std::isfinite(log_weight)) throw std::runtime_error("a map gave a likelihood that is not finite");
+  if (!allFinite(of_images) || !allFinite(of_others))
+    throw std::runtime_error("a map gave a likelihood that is not finite");
+  if (others) judge(other_recovery_, of_others, filter_options_.powFactor);
+  if (matches > 0) {
+    judge(image_recovery_, of_images, 1 / matches);
+    allowForAliasing(of_images);
   }
-  if (others && recovery_.enabled()) recovery_.add(logSumExp(weighed_others));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    m_particles[i].log_w += (of_others[i] + of_images[i]) * filter_options_.powFactor;
   normalize();
 }
 

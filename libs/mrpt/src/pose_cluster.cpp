@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/pose_cluster.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -16,6 +17,11 @@ constexpr double cell_position = 0.5;                  // m
 constexpr double cell_heading = std::numbers::pi / 6;  // rad
 constexpr int mean_shifts = 5;
 
+long cellOf(double coordinate, double cell) {
+  constexpr double last = 0x1p53;  // farther cells fit into no long
+  return std::lround(std::clamp(coordinate / cell, -last, last));
+}
+
 PlanarPose heaviestCell(const mrpt::poses::CPosePDFParticles& particles) {
   struct Cell {
     double weight = 0;
@@ -25,8 +31,8 @@ PlanarPose heaviestCell(const mrpt::poses::CPosePDFParticles& particles) {
   const Cell* heaviest = nullptr;
   for (const auto& particle : particles.m_particles) {
     const PlanarPose pose{particle.d.x, particle.d.y, wrapAngle(particle.d.phi)};
-    Cell& cell = cells[{std::lround(pose.x / cell_position), std::lround(pose.y / cell_position),
-                        (std::lround(pose.phi / cell_heading) + 12) % 12}];
+    Cell& cell = cells[{cellOf(pose.x, cell_position), cellOf(pose.y, cell_position),
+                        (cellOf(pose.phi, cell_heading) + 12) % 12}];
     if (cell.weight == 0) cell.first = pose;
     cell.weight += std::exp(particle.log_w);
     if (!heaviest || cell.weight > heaviest->weight) heaviest = &cell;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/pose_density.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vmcl {
@@ -13,7 +14,8 @@ struct Neighbours {
 };
 
 Neighbours neighbours(double coordinate, double cell) {
-  const double position = coordinate / cell, lower = std::floor(position);
+  constexpr double last = 0x1p27 - 2;  // of the keys; what lies beyond is put there
+  const double position = std::clamp(coordinate / cell, -last, last), lower = std::floor(position);
   return {static_cast<int64_t>(lower), position - lower};
 }
 

@@ -9,11 +9,14 @@
 namespace vmcl {
 namespace {
 
+constexpr double max_coordinate = 1e7;  // m: a quarter of the earth's circumference, as far as UTM goes
 constexpr float min_free_probability = 0.7F;
 
 void checkRange(const char* name, double low, double high) {
   if (!std::isfinite(low) || !std::isfinite(high))
     throw std::invalid_argument(std::string("range of ") + name + " is not finite");
+  if (low < -max_coordinate || high > max_coordinate)
+    throw std::invalid_argument(std::string("range of ") + name + " goes beyond 1e7");
   if (low > high)
     throw std::invalid_argument(std::string("range of ") + name + " is empty: from " + std::to_string(low) + " to " +
                                 std::to_string(high));

@@ -7,14 +7,19 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "vmcl/mapping/map_builder.h"
 #include "vmcl/mapping/map_file.h"
 #include "vmcl/mrpt/camera_observation.h"
+#include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/image_measurements.h"
+#include "vmcl/mrpt/pose_conversion.h"
 
 namespace vmcl {
 namespace {
@@ -25,27 +30,14 @@ struct InsertedImage {
 };
 
 KeyframeMap build(const std::vector<InsertedImage>& images, const MapBuilderOptions& options) {
-  std::vector<MapCamera> cameras;
-  std::vector<int> camera_of_image;
-  for (const InsertedImage& image : images) {
-    const CameraObservation& seen = image.observation;
-    const auto known = std::find_if(cameras.begin(), cameras.end(),
-                                    [&](const MapCamera& camera) { return camera.label == seen.label; });
-    camera_of_image.push_back(static_cast<int>(known - cameras.begin()));
-    if (known == cameras.end())
-      cameras.push_back({seen.label, seen.calibration, seen.robot_from_camera, options.features.mask_rows_from_top});
+  MapBuilder builder({}, options);
+  std::map<std::string, int> cameras;
+  for (const auto& [seen, map_from_robot] : images) {
+    const auto [camera, is_new] = cameras.try_emplace(seen.label);
+    if (is_new) camera->second = builder.addCamera({seen.label, seen.calibration, seen.robot_from_camera, 0});
+    builder.add(seen.time, camera->second, map_from_robot, seen.image.view());
   }
-  MapBuilder builder(std::move(cameras), options);
-  for (std::size_t i = 0; i < images.size(); ++i)
-    builder.add(images[i].observation.time, camera_of_image[i], images[i].map_from_robot,
-                images[i].observation.image.view());
   return builder.build().first;
-}
-
-Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
-  Rigid3 rigid = Rigid3::Identity();
-  rigid.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
-  return rigid;
 }
 
 }  // namespace
@@ -57,10 +49,38 @@ struct VisualKeyframeMap::State {
   std::shared_ptr<const KeyframeMap> content;
   std::shared_ptr<ImageMeasurements> measurements;
 
-  /// With the mutex held.
+  std::string failure;  ///< why no map can be built of the inserted images
+
+  std::set<std::string> told;
+
+  /// With the mutex held. Throws std::runtime_error, each time the same, when the map cannot be built.
   const std::shared_ptr<const KeyframeMap>& built(const VisualMapOptions& options) {
-    if (!content && !inserted.empty()) content = std::make_shared<const KeyframeMap>(build(inserted, options.builder));
+    if (content || inserted.empty()) return content;
+    if (failure.empty()) try {
+        content = std::make_shared<const KeyframeMap>(build(inserted, options.builder));
+      } catch (const std::exception& error) {
+        failure = errorMessage(error);
+      }
+    if (!failure.empty()) throw std::runtime_error(failure);
     return content;
+  }
+
+  /// With the mutex held. Throws std::runtime_error for an image that does not go with those before.
+  void insert(CameraObservation&& seen, const Rigid3& map_from_robot) {
+    const auto before = std::find_if(inserted.begin(), inserted.end(),
+                                     [&](const InsertedImage& image) { return image.observation.label == seen.label; });
+    if (before != inserted.end() && !sameCalibration(before->observation.calibration, seen.calibration))
+      throw std::runtime_error("camera '" + seen.label + "': other intrinsics than in its first image");
+    inserted.push_back({std::move(seen), map_from_robot});
+    content.reset();
+    measurements.reset();
+    failure.clear();
+  }
+
+  /// For callbacks of MRPT, where an exception would end the program. Each problem is told once.
+  void tell(const std::string& problem) {
+    const std::scoped_lock lock(mutex);
+    if (told.insert(problem).second) std::cerr << "vmcl: visual map: " << problem << '\n';
   }
 
   /// Null when the map is empty.
@@ -116,7 +136,7 @@ std::shared_ptr<const KeyframeMap> VisualKeyframeMap::content() const {
 std::shared_ptr<const KeyframeMap> VisualKeyframeMap::contentOrReport() const try {
   return content();
 } catch (const std::exception& error) {
-  std::cerr << "vmcl: visual map: " << error.what() << '\n';
+  state_->tell(errorMessage(error));
   return nullptr;
 }
 
@@ -136,12 +156,12 @@ bool VisualKeyframeMap::internal_insertObservation(const mrpt::obs::CObservation
   auto camera = cameraObservation(observation);
   if (!camera) return false;
   const std::scoped_lock lock(state_->mutex);
-  state_->inserted.push_back({std::move(*camera), rigidOf(robot_in_map.value_or(mrpt::poses::CPose3D()))});
-  state_->content.reset();
-  state_->measurements.reset();
+  if (state_->content && state_->inserted.empty())
+    throw std::runtime_error("no image can be inserted, as the content was given: clear it first");
+  state_->insert(std::move(*camera), toRigid3(robot_in_map.value_or(mrpt::poses::CPose3D())));
   return true;
 } catch (const std::exception& error) {
-  std::cerr << "vmcl: visual map: " << error.what() << '\n';  // one broken image must not end the program
+  state_->tell(errorMessage(error));
   return false;
 }
 
@@ -156,28 +176,39 @@ double VisualKeyframeMap::internal_computeObservationLikelihood(const mrpt::obs:
   if (!internal_canComputeObservationLikelihood(observation)) return 0;
   const auto measurement = state_->measurement(observation, options_);
   if (!measurement) return 0;
-  if (measurement->isFirstFailure()) std::cerr << "vmcl: " << measurement->error << '\n';
+  if (!measurement->error.empty()) state_->tell(measurement->error);
   return measurement->logLikelihood({robot_in_map.x(), robot_in_map.y(), robot_in_map.yaw()});
-} catch (const std::exception&) {
-  return 0;  // thrown on, it would end the program; contentOrReport() has told why the map cannot be built
+} catch (const std::exception& error) {
+  state_->tell(errorMessage(error));
+  return 0;
 }
 
-void VisualKeyframeMap::addLogLikelihoods(const mrpt::obs::CObservation& observation,
-                                          std::span<const PlanarPose> robot_in_map, int threads,
-                                          std::span<double> log_likelihoods) const {
+double VisualKeyframeMap::addLogLikelihoods(const mrpt::obs::CObservation& observation,
+                                            std::span<const PlanarPose> robot_in_map, int threads,
+                                            std::span<double> log_likelihoods) const try {
   const auto measurement = state_->measurement(observation, options_);
-  if (!measurement || !measurement->likelihood) return;
+  if (!measurement || !measurement->likelihood) return 0;
   const std::size_t count = robot_in_map.size(), workers = static_cast<std::size_t>(threads);
   const auto weigh = [&](std::size_t worker) {
     for (std::size_t i = count * worker / workers; i < count * (worker + 1) / workers; ++i)
       log_likelihoods[i] += measurement->logLikelihood(robot_in_map[i]);
   };
   std::vector<std::jthread> others;
-  for (std::size_t worker = 1; worker < workers; ++worker) others.emplace_back(weigh, worker);
+  others.reserve(workers);
+  std::size_t worker = 1;
+  try {
+    for (; worker < workers; ++worker) others.emplace_back(weigh, worker);
+  } catch (const std::system_error&) {  // no more threads are to be had: this one does the rest
+  }
+  for (; worker < workers; ++worker) weigh(worker);
   weigh(0);
+  return measurement->independentMatches();
+} catch (const std::exception& error) {
+  state_->tell(errorMessage(error));
+  return 0;
 }
 
-PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observation) const {
+PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observation, uint64_t seed) const {
   const auto measurement = state_->measurement(observation, options_);
   if (measurement && !measurement->error.empty()) throw std::runtime_error(measurement->error);
   if (!measurement || !measurement->likelihood) {
@@ -185,7 +216,9 @@ PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observ
     nothing.reason = "no matches";
     return nothing;
   }
-  return estimatePose(measurement->problem, options_.relocalizer.estimator);
+  EstimatorOptions options = options_.relocalizer.estimator;
+  options.seed = seed;
+  return estimatePose(measurement->problem, options);
 }
 
 void VisualKeyframeMap::extend(PoseBox& box) const {

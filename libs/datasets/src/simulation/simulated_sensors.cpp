@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vmcl/mrpt/pose_conversion.h"
+
 namespace vmcl {
 namespace {
 
@@ -12,12 +14,6 @@ enum Stream : uint64_t { odometry_stream, laser_stream, camera_stream, stream_co
 /// The generator for one reading of a sensor.
 Random readingRandom(uint64_t seed, Stream stream, double time) {
   return Random(seed, static_cast<uint64_t>(std::llround(time * 1e6)) * stream_count + stream);
-}
-
-Rigid3 rigidOf(const mrpt::poses::CPose3D& pose) {
-  Rigid3 rigid = Rigid3::Identity();
-  rigid.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
-  return rigid;
 }
 
 void addNoise(cv::Mat& image, double sigma, Random& random) {
@@ -79,7 +75,7 @@ mrpt::obs::CObservationImage SimulatedSensors::camera(double time) const {
 }
 
 cv::Mat SimulatedSensors::image(double time, const PlanarPose& map_from_robot) {
-  cv::Mat image = renderer_.render(toRigid3(map_from_robot) * rigidOf(setup_.camera.robot_from_camera));
+  cv::Mat image = renderer_.render(toRigid3(map_from_robot) * toRigid3(setup_.camera.robot_from_camera));
   Random random = readingRandom(seed_, camera_stream, time);
   addNoise(image, setup_.camera.sigma_grey, random);
   return image;

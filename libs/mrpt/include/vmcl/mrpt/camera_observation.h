@@ -26,4 +26,7 @@ struct CameraObservation {
 /// size than the intrinsics, values that are not finite.
 std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation& observation);
 
+/// Whether both are of one camera: the same in all values.
+bool sameCalibration(const CameraCalibration& a, const CameraCalibration& b);
+
 }  // namespace vmcl

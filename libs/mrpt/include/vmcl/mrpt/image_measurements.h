@@ -3,7 +3,6 @@
 
 #include <mrpt/obs/CObservation.h>
 
-#include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -22,13 +21,11 @@ struct ImageMeasurement {
   PoseProblem problem;
   std::optional<PoseLikelihood> likelihood;  ///< none without matches
   double match_weight = 1;                   ///< factor of the log likelihood
-  mutable std::atomic_flag reported;         ///< the error has been told
 
   /// Weighted log likelihood; 0 when the image says nothing.
   double logLikelihood(const PlanarPose& robot_in_map) const;
 
-  /// True once for an image that cannot be used.
-  bool isFirstFailure() const { return !error.empty() && !reported.test_and_set(); }
+  double independentMatches() const { return match_weight * static_cast<double>(problem.matches.size()); }
 };
 
 /// Matches every image with the map once, however many particles ask. MRPT gives no sign of a new observation, so it is

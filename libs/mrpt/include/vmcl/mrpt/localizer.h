@@ -34,13 +34,13 @@ class Localizer {
   Localizer(const LocalizationConfig& config, mrpt::maps::CMultiMetricMap::Ptr maps);
 
   /// Takes in one step: either a frame with the action that led to it, or a single observation. Nothing comes back when
-  /// there was nothing in it that a map can use. Observations that cannot be used because they are broken are left out
-  /// and named by takeProblems().
+  /// there was nothing in it that a map can use. Observations that cannot be used because they are broken, and
+  /// movements that are not finite or of more than 1 km, are left out and named by takeProblems().
   std::optional<LocalizationFrame> step(const mrpt::obs::CActionCollection::Ptr& action,
                                         const mrpt::obs::CSensoryFrame::Ptr& frame,
                                         const mrpt::obs::CObservation::Ptr& observation);
 
-  /// One line per broken observation since the last call.
+  /// One line per broken observation or movement since the last call.
   std::vector<std::string> takeProblems();
 
   const PlanarMonteCarlo& particles() const { return filter_; }
@@ -50,15 +50,16 @@ class Localizer {
   std::optional<LocalizationFrame> update(const mrpt::obs::CActionCollection* action,
                                           const mrpt::obs::CSensoryFrame& frame);
   mrpt::obs::CSensoryFrame usable(const mrpt::obs::CSensoryFrame& frame, std::vector<PoseMode>& modes, int& inliers);
-  bool hasFiniteMotion(const mrpt::obs::CActionCollection* action);
+  bool isUsable(const mrpt::obs::CActionCollection* action);
+  void addOdometry(const mrpt::obs::CObservationOdometry& reading);
   mrpt::obs::CActionCollection motionSinceLastUpdate();
   void countSteadyFrames(const PoseCluster& cluster);
 
   LocalizationConfig config_;
   mrpt::maps::CMultiMetricMap::Ptr maps_;
   PlanarMonteCarlo filter_;
-  std::optional<mrpt::poses::CPose2D> odometry_;          ///< latest reading
-  std::optional<mrpt::poses::CPose2D> odometry_applied_;  ///< the reading that the particles have moved to
+  std::optional<PlanarPose> odometry_;  ///< latest reading
+  PlanarPose moved_;                    ///< by the odometry, since the particles were moved
   std::vector<std::string> problems_;
   int steps_ = 0;
   std::optional<PlanarPose> expected_;  ///< the cluster of the last update, moved by the odometry since

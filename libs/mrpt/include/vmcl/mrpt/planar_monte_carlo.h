@@ -8,6 +8,7 @@
 #include <span>
 
 #include "vmcl/estimation/estimator.h"
+#include "vmcl/mrpt/pose_density.h"
 #include "vmcl/mrpt/pose_region.h"
 #include "vmcl/mrpt/recovery_averages.h"
 
@@ -27,7 +28,8 @@ struct PlanarMonteCarloOptions {
 };
 
 /// Monte Carlo localization on the plane: MRPT's filter (motion models, KLD-adaptive sample size, metric maps) with
-/// - AMCL's recovery from w_slow and w_fast,
+/// - AMCL's recovery from w_slow and w_fast, kept apart for images and for all other sensors. An image's likelihood is
+///   there the geometric mean over its matches, whose number differs from image to image,
 /// - particles injected where an image says the robot may be,
 /// - weights that are equal after every resampling,
 /// - one seed for everything random.
@@ -39,12 +41,15 @@ struct PlanarMonteCarloOptions {
 ///
 /// An image may look like another place, and be consistently wrong. With the chance g of that and the likelihood l(x),
 /// it is weighed by (1 - g) l(x) + g z, where z is the mean of l over the map, which the particles tell by importance
-/// sampling. So one image moves the robot elsewhere by odds of no more than about e / g, however sharp it is; two that
-/// agree do.
+/// sampling as far as they cover it. So one image moves the robot to where it has injected particles by odds of no more
+/// than about e / g, however sharp it is; two that agree do.
 class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
  public:
   using KldOptions = mrpt::slam::TKLDParams;
   using ParticleFilterOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
+
+  /// Throws std::invalid_argument naming the key that asks for what is not supported.
+  static void check(const ParticleFilterOptions& options);
 
   /// `anywhere`: where a lost robot may be. Seeds MRPT's process-wide generator, which the motion models draw from: at
   /// most one filter of a process runs at a time. Throws std::invalid_argument naming the bad option.
@@ -56,8 +61,8 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   void start(const PoseRegion& region, int particles);
 
   /// One step: prediction by the action, injection of the modes, weighing by the observations, resampling. Without an
-  /// action the robot has stood still; without a frame there is only the prediction. Throws std::runtime_error when a
-  /// map gives a likelihood that is not finite.
+  /// action the robot has stood still; without a frame there is only the prediction. Throws std::runtime_error when the
+  /// action's noise or a map's likelihood is not finite.
   void update(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame,
               std::span<const PoseMode> modes = {});
 
@@ -65,24 +70,29 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   double effectiveShare() const { return effective_share_; }
 
  private:
-  void runStockAlgorithm(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame);
   void predict(const mrpt::obs::CActionCollection& action);
-  std::vector<double> inject(std::span<const PoseMode> modes);
-  void weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const double> log_uniform_ratios);
-  void allowForAliasing(std::span<const double> log_uniform_ratios, std::span<double> log_likelihoods) const;
+  void inject(std::span<const PoseMode> modes);
+  void recover();
+  void weigh(const mrpt::obs::CSensoryFrame& frame);
+  void judge(RecoveryAverages& recovery, std::span<const double> log_likelihoods, double factor) const;
+  PoseDensity density() const;
+  void allowForAliasing(std::span<double> log_likelihoods) const;
   void resample();
   void equalizeWeights();
   void normalize();
 
+  /// Replaces a share of the particles, chosen at random; returns the share in whole particles.
   template <typename Draw>
-  void replaceParticles(std::size_t count, Draw&& draw);
+  double replaceParticles(double share, Draw&& draw);
 
   mrpt::maps::CMultiMetricMap::ConstPtr map_;
   ParticleFilterOptions filter_options_;
   PlanarMonteCarloOptions monte_carlo_options_;
   PoseRegion anywhere_;
-  RecoveryAverages recovery_;
+  RecoveryAverages image_recovery_;
+  RecoveryAverages other_recovery_;
   Random random_;
+  std::vector<char> drawn_anew_;  ///< for each particle, whether the update drew it where the prediction had none
   double effective_share_ = 1;
 };
 

@@ -20,7 +20,8 @@ struct PoseBox {
   double min_phi = -std::numbers::pi;
   double max_phi = std::numbers::pi;
 
-  /// Throws std::invalid_argument naming the value that is not finite, or the range whose minimum exceeds its maximum.
+  /// Throws std::invalid_argument naming the value that is not finite or beyond 10,000 km, or the range whose minimum
+  /// exceeds its maximum.
   void check() const;
 };
 

@@ -10,7 +10,8 @@ namespace vmcl {
 
 /// AMCL's test for a lost robot (Thrun, Burgard, Fox: Probabilistic Robotics, table 8.3): two running averages of the
 /// mean likelihood of the particles, and as share of random particles max(0, 1 - w_fast / w_slow). Kept as logarithms,
-/// because MRPT's likelihoods of whole scans leave the range of a double.
+/// because MRPT's likelihoods of whole scans leave the range of a double. They go on while particles are replaced, as
+/// in the book; AMCL starts them anew, which makes recovery one burst of no more than the share recovery_alpha_fast.
 class RecoveryAverages {
  public:
   /// Rates in [0, 1]; recovery is off unless both are positive. Throws std::invalid_argument naming the bad rate.
@@ -20,10 +21,9 @@ class RecoveryAverages {
     checkRate("recovery_alpha_fast", alpha_fast_);
   }
 
-  bool enabled() const { return alpha_slow_ > 0 && alpha_fast_ > 0; }
-
   /// Takes in the logarithm of the mean likelihood of one update. The first sets both averages, as in AMCL.
   void add(double log_mean_likelihood) {
+    if (!(alpha_slow_ > 0 && alpha_fast_ > 0)) return;
     log_slow_ = started_ ? blend(log_slow_, log_mean_likelihood, alpha_slow_) : log_mean_likelihood;
     log_fast_ = started_ ? blend(log_fast_, log_mean_likelihood, alpha_fast_) : log_mean_likelihood;
     started_ = true;
@@ -31,9 +31,6 @@ class RecoveryAverages {
 
   /// Share of the particles to replace, [0, 1).
   double randomShare() const { return started_ ? std::max(0.0, -std::expm1(log_fast_ - log_slow_)) : 0; }
-
-  /// After random particles were drawn both averages start anew, as in AMCL.
-  void restart() { started_ = false; }
 
  private:
   static void checkRate(const char* name, double rate) {

@@ -17,13 +17,14 @@ class RelocalizingMap {
   virtual ~RelocalizingMap() = default;
 
   /// Adds the log likelihood of the observation at each pose; sizes must agree. The sums do not depend on `threads`.
-  /// Never throws: an observation that cannot be used adds nothing.
-  virtual void addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
-                                 int threads, std::span<double> log_likelihoods) const = 0;
+  /// Returns of how many independent matches the log likelihood is the sum, so that images with many and with few can
+  /// be compared. Never throws: an observation that cannot be used adds nothing and gives 0.
+  virtual double addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
+                                   int threads, std::span<double> log_likelihoods) const = 0;
 
-  /// Where the robot may have been; nothing found: no modes and a reason. Throws std::runtime_error naming the sensor
-  /// when the observation is broken.
-  virtual PoseEstimate relocalize(const mrpt::obs::CObservation& observation) const = 0;
+  /// Where the robot may have been, by samples drawn with this seed; nothing found: no modes and a reason. Throws
+  /// std::runtime_error naming the sensor when the observation is broken.
+  virtual PoseEstimate relocalize(const mrpt::obs::CObservation& observation, uint64_t seed) const = 0;
 
   /// Widens the box to what the map covers.
   virtual void extend(PoseBox& box) const = 0;

@@ -16,9 +16,10 @@ namespace vmcl {
 /// (CObservationImage, or the intensity image of CObservation3DRangeScan) wherever MRPT uses metric maps: preload
 /// libvmcl-mrpt.so, or load it as a plugin. All other observations have log likelihood 0.
 ///
-/// The content is that of map_file, which is then closed for insertion and outlives clear(); or it is built, at the
-/// first use, from the images inserted, such as those of a CSimpleMap. An image whose sensor label is that of a camera
-/// of the map is taken by that camera: mount and mask come from the map.
+/// The content is that of map_file, which is then closed for insertion and outlives clear(); or it is given or read
+/// from a stream, and closed for insertion until clear(); or it is built, at the first use, from the images inserted,
+/// such as those of a CSimpleMap. What is wrong in a callback of MRPT is told on stderr, once. An image whose sensor
+/// label is that of a camera of the map is taken by that camera: mount and mask come from the map.
 class VisualKeyframeMap : public mrpt::maps::CMetricMap, public RelocalizingMap {
   DEFINE_SERIALIZABLE(VisualKeyframeMap, vmcl)
 
@@ -40,9 +41,9 @@ class VisualKeyframeMap : public mrpt::maps::CMetricMap, public RelocalizingMap 
   std::shared_ptr<const KeyframeMap> content() const;
   const VisualMapOptions& visualOptions() const { return options_; }
 
-  void addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
-                         int threads, std::span<double> log_likelihoods) const override;
-  PoseEstimate relocalize(const mrpt::obs::CObservation& observation) const override;
+  double addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
+                           int threads, std::span<double> log_likelihoods) const override;
+  PoseEstimate relocalize(const mrpt::obs::CObservation& observation, uint64_t seed) const override;
   void extend(PoseBox& box) const override;
 
   bool isEmpty() const override;
