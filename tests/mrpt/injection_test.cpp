@@ -112,6 +112,18 @@ TEST(Injection, WithoutItOneImageMovesTheRobotNoFarther) {
   EXPECT_NEAR(share, 0.903, 0.02);  // the histogram leaks a twentieth at the ends of the headings
 }
 
+TEST(Injection, WeightsThatUnderflowDoNoHarm) {
+  const auto maps = mrpt::maps::CMultiMetricMap::Create();
+  maps->maps.push_back(std::make_shared<FakeCameraMap>(aliasedMap({0, 0, 0}, 0.1)));
+  FilterSetup setup;
+  PlanarMonteCarlo filter(maps, setup.kld, setup.filter, setup.options, PoseRegion(box));
+  filter.start(PoseRegion(box), 100);
+  filter.m_particles[0].log_w = -2000;
+  const auto frame = someObservation();
+  filter.update(nullptr, &frame);
+  for (const auto& particle : filter.m_particles) EXPECT_TRUE(std::isfinite(particle.log_w));
+}
+
 /// One particle holds nearly all the weight, and half of them are replaced: at even odds it would be among those.
 /// Twenty seeds would let that pass once in a million.
 TEST(Injection, DoesNotDropTheParticleWithTheWeight) {

@@ -179,7 +179,9 @@ void PlanarMonteCarlo::allowForAliasing(std::span<double> log_likelihoods) const
   std::vector<double> over_the_map(log_likelihoods.begin(), log_likelihoods.end());
   for (std::size_t i = 0; i < over_the_map.size(); ++i) {
     const auto& particle = m_particles[i];
-    over_the_map[i] += particle.log_w - std::log(anywhere_.volume() * belief(planarPose(particle.d)));
+    const double density = belief(planarPose(particle.d));  // 0 where the weight underflows
+    over_the_map[i] += density > 0 ? particle.log_w - std::log(anywhere_.volume() * density)
+                                   : -std::numeric_limits<double>::infinity();
   }
   const double log_mean = logSumExp(over_the_map);
   for (double& value : log_likelihoods)
