@@ -6,6 +6,7 @@
 #include "posed_images.h"
 #include "progress_bar.h"
 #include "verbs.h"
+#include "vmcl/geometry/atomic_file.h"
 #include "vmcl/mapping/map_file.h"
 
 namespace vmcl {
@@ -58,7 +59,8 @@ int runInfo(const std::string& file) {
   for (const MapCamera& camera : map.cameras) {
     const PinholeCamera& pinhole = camera.calibration.pinhole;
     std::cout << "camera '" << camera.label << "': " << pinhole.width << "x" << pinhole.height << ", fx " << pinhole.fx
-              << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy << ", mounted at "
+              << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy << ", distortion "
+              << Eigen::Map<const Eigen::RowVector<double, 5>>(camera.calibration.distortion.data()) << ", mounted at "
               << camera.robot_from_camera.translation().transpose() << " m, " << camera.mask_rows_from_top
               << " rows masked\n";
   }
@@ -72,6 +74,7 @@ int runMap(const MapArguments& arguments) {
   if (arguments.trajectory.empty() != arguments.readsSimpleMap())
     throw std::runtime_error(arguments.readsSimpleMap() ? "map: a simplemap has its own poses: leave --trajectory out"
                                                         : "map: the poses of a rawlog are needed: give --trajectory");
+  AtomicFile(arguments.output);  // fails now rather than after the work
   ProgressBar bar;
   MapBuilder builder({}, arguments.builderOptions());
   PosedImages images(builder);
@@ -113,6 +116,9 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--sigma-focal", options.sigma_focal,
                   "standard deviation of the given focal length, relative; 0: exact")
+      ->capture_default_str();
+  verb.add_option("--sigma-radial", options.sigma_radial,
+                  "standard deviation of the given radial distortion k1 and k2; 0: exact")
       ->capture_default_str();
   verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")
       ->check(CLI::NonNegativeNumber)

@@ -14,6 +14,14 @@ namespace {
 
 using testing::smallMap;
 
+void setFeatureCount(Keyframe& keyframe, std::size_t count) {
+  keyframe.features.pixels.resize(count, Eigen::Vector2f::Zero());
+  keyframe.features.sizes.resize(count);
+  keyframe.features.responses.resize(count);
+  keyframe.features.descriptors.setZero(static_cast<Eigen::Index>(count), 32);
+  keyframe.landmark_of_feature.resize(count, -1);
+}
+
 TEST(KeyframeMap, AcceptsAValidAndAnEmptyMap) {
   EXPECT_NO_THROW(smallMap().check());
   EXPECT_NO_THROW(KeyframeMap{}.check());
@@ -39,6 +47,7 @@ TEST(KeyframeMap, NamesTheBrokenEntry) {
       {"keyframe 1", [](KeyframeMap& map) { map.keyframes[1].features.kind = FeatureKind::sift; }},
       {"keyframe 1", [&](KeyframeMap& map) { map.keyframes[1].features.pixels[0].x() = std::nanf(""); }},
       {"keyframe 1", [](KeyframeMap& map) { map.keyframes[1].features.descriptors.resize(3, 31); }},
+      {"100001 features", [](KeyframeMap& map) { setFeatureCount(map.keyframes[1], 100'001); }},
       {"keyframe 2", [](KeyframeMap& map) { map.keyframes[2].landmark_of_feature[0] = 4; }},
       {"keyframe 2", [](KeyframeMap& map) { map.keyframes[2].landmark_of_feature[0] = -2; }},
       {"keyframe 2", [](KeyframeMap& map) { map.keyframes[2].landmark_of_feature.pop_back(); }},
@@ -46,6 +55,7 @@ TEST(KeyframeMap, NamesTheBrokenEntry) {
       {"landmark 3", [](KeyframeMap& map) { map.landmarks[3].covariance(0, 1) += 1; }},
       {"landmark 3", [](KeyframeMap& map) { map.landmarks[3].covariance(2, 2) = -1; }},
       {"landmark 3", [](KeyframeMap& map) { map.landmarks[3].observation_count = -1; }},
+      {"poses", [](KeyframeMap& map) { map.pose_covariance(1, 1) = -1; }},
       {"vocabulary", [](KeyframeMap& map) { map.feature_options.kind = FeatureKind::sift, map.keyframes.clear(); }},
       {"place descriptors", [](KeyframeMap& map) { map.place_descriptors.conservativeResize(512, 2); }},
       {"place descriptors", [](KeyframeMap& map) { map.place_descriptors.resize(511, 3); }},

@@ -116,11 +116,11 @@ TEST_F(MapFile, HugeCountsTakeNoMemory) {
 
 TEST_F(MapFile, NamesFileAndReason) {
   std::string bytes = encodeMap(smallMap());
-  bytes[8] = 2;
+  bytes[8] = map_file_version + 1;
   std::ofstream(folder_ / "newer.vmap", std::ios::binary) << bytes;
   std::ofstream(folder_ / "other.vmap") << "an image, perhaps";
   std::ofstream(folder_ / "empty.vmap");
-  const std::pair<const char*, const char*> cases[] = {{"newer.vmap", "version 2"},
+  const std::pair<const char*, const char*> cases[] = {{"newer.vmap", "version 3"},
                                                        {"other.vmap", "not a .vmap"},
                                                        {"empty.vmap", "not a .vmap"},
                                                        {"missing.vmap", "no such file"},

@@ -21,6 +21,7 @@ inline KeyframeMap smallMap(uint64_t seed = 1) {
     const Eigen::Vector3d point(random.normal(), random.normal(), 1);
     map.landmarks.push_back({point, (covariance + covariance.transpose()) / 2, 3});
   }
+  map.pose_covariance = map.landmarks[1].covariance;
   for (int k = 0; k < 3; ++k) {
     Keyframe keyframe{0.1 * k, k % 2, toRigid3({random.normal(), 2, random.normal()}), {}, {}};
     const int count = 3 * k;  // the first has none

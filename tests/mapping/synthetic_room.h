@@ -71,6 +71,8 @@ struct Recording {
   Room room{600, 11};
   std::vector<PlanarPose> drive = ovalDrive(60);
   Eigen::Vector3d mount_error = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw (rad)
+  double k1 = 0;                                          ///< true radial distortion; the given one is 0
+  double k2 = 0;
   double sigma_px = 0.5;
   double sigma_position = 0.02;
   double sigma_heading = 0.01;
@@ -83,6 +85,7 @@ struct Recording {
                                   Eigen::AngleAxisd(mount_error.x(), Eigen::Vector3d::UnitX()))
                                      .toRotationMatrix();
     camera.robot_from_camera.linear() = turn * camera.robot_from_camera.linear();
+    camera.calibration.distortion = {k1, k2, 0, 0, 0};
     return camera;
   }
 
@@ -106,7 +109,9 @@ struct Recording {
       const PlanarPose given{drive[i].x + sigma_position * random.normal(),
                              drive[i].y + sigma_position * random.normal(),
                              drive[i].phi + sigma_heading * random.normal()};
-      builder.add(0.1 * static_cast<double>(i), 0, toRigid3(given), see(room, view, sigma_px, outliers, random));
+      FeatureSet seen = see(room, view, sigma_px, outliers, random);
+      for (Eigen::Vector2f& pixel : seen.pixels) pixel = camera.calibration.distort(pixel.cast<double>()).cast<float>();
+      builder.add(0.1 * static_cast<double>(i), 0, toRigid3(given), std::move(seen));
     }
     return builder.build();
   }

@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "reprojection_residual.h"
 
@@ -55,6 +56,8 @@ Eigen::Vector3d AdjustmentNoise::mountShiftWeights() const { return weights({mou
 
 Eigen::Vector3d AdjustmentNoise::lensWeights() const { return weights({focal, 0, 0}); }
 
+Eigen::Vector3d AdjustmentNoise::radialWeights() const { return weights({radial, radial, 0}); }
+
 void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   ceres::HuberLoss loss(huber_threshold);
   ceres::Problem::Options problem_options;
@@ -77,6 +80,7 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
     addCorrection(correction.rotation, noise.mountRotationWeights());
     addCorrection(correction.shift, noise.mountShiftWeights());
     addCorrection(correction.lens, noise.lensWeights());
+    addCorrection(correction.radial, noise.radialWeights());
   }
   for (ScenePoint& point : scene.points) {
     for (const Observation& seen : point.track) {
@@ -84,9 +88,9 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
       const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
       CameraCorrection& correction = scene.corrections[camera];
       auto* cost = new ReprojectionCost(  // owned by the problem
-          new ReprojectionResidual{&scene.cameras[camera], scene.pixel(seen), noise.pixel});
+          new ReprojectionResidual{&scene.cameras[camera], scene.distortedPixel(seen), noise.pixel});
       problem.AddResidualBlock(cost, &loss, poses[k].data(), correction.rotation.data(), correction.shift.data(),
-                               correction.lens.data(), point.point_in_map.data());
+                               correction.lens.data(), correction.radial.data(), point.point_in_map.data());
     }
     ordering->AddElementToGroup(point.point_in_map.data(), 0);
   }
@@ -94,6 +98,7 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   options.linear_solver_ordering = std::move(ordering);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) throw std::runtime_error("the map cannot be adjusted: " + summary.message);
   for (std::size_t k = 0; k < poses.size(); ++k)
     scene.map_from_robot[k] = {poses[k].x(), poses[k].y(), wrapAngle(poses[k].z())};
 }

@@ -13,6 +13,7 @@ struct AdjustmentNoise {
   double mount_rotation = 0.05;  ///< of the given mounts' roll, pitch and yaw (rad)
   double mount_shift = 0.02;     ///< of the given mounts' x and y (m)
   double focal = 0.03;           ///< of the given focal lengths, relative
+  double radial = 0.1;           ///< of the given k1 and k2
 
   /// 1 / sigma of the planar pose's (x, y, phi).
   Eigen::Vector3d poseWeights() const;
@@ -22,10 +23,13 @@ struct AdjustmentNoise {
   Eigen::Vector3d mountShiftWeights() const;
   /// 1 / sigma of CameraCorrection::lens.
   Eigen::Vector3d lensWeights() const;
+  /// 1 / sigma of CameraCorrection::radial.
+  Eigen::Vector3d radialWeights() const;
 };
 
 /// Bundle adjustment: moves points, poses and camera corrections to the least robust sum of squared reprojection errors
 /// and deviations from what was given, each in standard deviations. Deterministic.
+/// Throws std::runtime_error when it fails numerically.
 void adjust(Reconstruction& scene, const AdjustmentNoise& noise);
 
 }  // namespace vmcl

@@ -7,8 +7,8 @@
 
 namespace vmcl {
 
-/// Throws std::invalid_argument, beginning with `name`, for features of another kind, arrays that differ in length,
-/// descriptors of another size, or values that are not finite.
+/// Throws std::invalid_argument, beginning with `name`, for features of another kind, more than an image may have,
+/// arrays that differ in length, descriptors of another size, or values that are not finite.
 void checkFeatures(const FeatureSet& features, FeatureKind kind, const std::string& name);
 
 }  // namespace vmcl

@@ -31,13 +31,17 @@ void checkCamera(const MapCamera& camera, const std::string& name) {
   require(camera.mask_rows_from_top >= 0, name + ": mask_rows_from_top is negative");
 }
 
+void checkCovariance(const Eigen::Matrix3d& covariance, const std::string& name) {
+  require(covariance.allFinite(), name + ": covariance is not finite");
+  require(covariance.isApprox(covariance.transpose(), 1e-6), name + ": covariance is not symmetric");
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
+  require(eigen.eigenvalues()[0] >= -1e-9 * covariance.cwiseAbs().maxCoeff(),
+          name + ": covariance is not positive semidefinite");
+}
+
 void checkLandmark(const Landmark& landmark, const std::string& name) {
   require(landmark.point_in_map.allFinite(), name + ": point is not finite");
-  require(landmark.covariance.allFinite(), name + ": covariance is not finite");
-  require(landmark.covariance.isApprox(landmark.covariance.transpose(), 1e-6), name + ": covariance is not symmetric");
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(landmark.covariance, Eigen::EigenvaluesOnly);
-  require(eigen.eigenvalues()[0] >= -1e-9 * landmark.covariance.cwiseAbs().maxCoeff(),
-          name + ": covariance is not positive semidefinite");
+  checkCovariance(landmark.covariance, name);
   require(landmark.observation_count >= 0, name + ": observation count is negative");
 }
 
@@ -47,6 +51,9 @@ void checkFeatures(const FeatureSet& features, FeatureKind kind, const std::stri
   const auto finite = [](float value) { return std::isfinite(value); };
   const std::size_t count = features.pixels.size();
   require(features.kind == kind, name + ": features of another kind");
+  require(
+      count <= static_cast<std::size_t>(FeatureOptions::most_features),
+      name + ": " + std::to_string(count) + " features, more than " + std::to_string(FeatureOptions::most_features));
   require(features.sizes.size() == count && features.responses.size() == count &&
               static_cast<std::size_t>(features.descriptors.rows()) == count,
           name + ": feature arrays differ in length");
@@ -74,6 +81,7 @@ void KeyframeMap::check() const {
       require(landmark >= -1 && landmark < std::ssize(landmarks), name + ": no landmark " + std::to_string(landmark));
   }
   for (std::size_t i = 0; i < landmarks.size(); ++i) checkLandmark(landmarks[i], "landmark " + std::to_string(i));
+  checkCovariance(pose_covariance, "poses");
   const Eigen::MatrixXf& words = vocabulary.words();
   require(vocabulary.empty() || vocabulary.kind() == feature_options.kind, "vocabulary: words of another kind");
   require(place_descriptors.cols() == std::ssize(keyframes), "place descriptors: not one a keyframe");

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <array>
 #include <map>
+#include <stdexcept>
 
 #include "reprojection_residual.h"
 
@@ -50,11 +51,11 @@ class BlockMatrix {
   std::map<std::pair<int, int>, Block> entries_;
 };
 
-/// Numbers of the blocks that an observation depends on: keyframes, then for each camera rotation, shift and lens.
-std::array<int, 4> blocksOf(const Reconstruction& scene, int keyframe) {
+/// Numbers of the blocks that an observation depends on: keyframes, then for each camera its corrections.
+std::array<int, 5> blocksOf(const Reconstruction& scene, int keyframe) {
   const int camera = scene.keyframes[static_cast<std::size_t>(keyframe)].camera;
-  const int rotation = static_cast<int>(scene.keyframes.size()) + 3 * camera;
-  return {keyframe, rotation, rotation + 1, rotation + 2};
+  const int rotation = static_cast<int>(scene.keyframes.size()) + 4 * camera;
+  return {keyframe, rotation, rotation + 1, rotation + 2, rotation + 3};
 }
 
 PointEquations linearize(const Reconstruction& scene, const AdjustmentNoise& noise, const ScenePoint& point,
@@ -63,20 +64,25 @@ PointEquations linearize(const Reconstruction& scene, const AdjustmentNoise& noi
   for (const Observation& seen : point.track) {
     const auto k = static_cast<std::size_t>(seen.keyframe);
     const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
-    const ReprojectionCost cost(new ReprojectionResidual{&scene.cameras[camera], scene.pixel(seen), noise.pixel});
+    const ReprojectionCost cost(
+        new ReprojectionResidual{&scene.cameras[camera], scene.distortedPixel(seen), noise.pixel});
     const PlanarPose& pose = scene.map_from_robot[k];
     const double pose_values[] = {pose.x, pose.y, pose.phi};
     const CameraCorrection& correction = scene.corrections[camera];
-    const double* values[] = {pose_values, correction.rotation.data(), correction.shift.data(), correction.lens.data(),
+    const double* values[] = {pose_values,
+                              correction.rotation.data(),
+                              correction.shift.data(),
+                              correction.lens.data(),
+                              correction.radial.data(),
                               point.point_in_map.data()};
     Eigen::Vector2d residual;
-    std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 5> J;
-    double* jacobians[] = {J[0].data(), J[1].data(), J[2].data(), J[3].data(), J[4].data()};
+    std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 6> J;
+    double* jacobians[] = {J[0].data(), J[1].data(), J[2].data(), J[3].data(), J[4].data(), J[5].data()};
     cost.Evaluate(values, residual.data(), jacobians);
-    equations.information += J[4].transpose() * J[4];
-    const std::array<int, 4> blocks = blocksOf(scene, seen.keyframe);
-    for (std::size_t a = 0; a < 4; ++a) {
-      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[4];
+    equations.information += J[5].transpose() * J[5];
+    const std::array<int, 5> blocks = blocksOf(scene, seen.keyframe);
+    for (std::size_t a = 0; a < 5; ++a) {
+      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[5];
       for (std::size_t b = 0; b <= a; ++b) pose_information.add(blocks[a], blocks[b], J[a].transpose() * J[b]);
     }
   }
@@ -98,14 +104,15 @@ Block eliminate(PointEquations& equations, BlockMatrix& pose_information) {
 
 std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const AdjustmentNoise& noise) {
   const int keyframes = static_cast<int>(scene.keyframes.size());
-  const int blocks = keyframes + 3 * static_cast<int>(scene.cameras.size());
+  const int blocks = keyframes + 4 * static_cast<int>(scene.cameras.size());
   BlockMatrix pose_information(blocks);
   const auto squared = [](const Eigen::Vector3d& weights) { return Block(weights.cwiseAbs2().asDiagonal()); };
   for (int i = 0; i < keyframes; ++i) pose_information.add(i, i, squared(noise.poseWeights()));
-  for (int i = keyframes; i < blocks; i += 3) {
+  for (int i = keyframes; i < blocks; i += 4) {
     pose_information.add(i, i, squared(noise.mountRotationWeights()));
     pose_information.add(i + 1, i + 1, squared(noise.mountShiftWeights()));
     pose_information.add(i + 2, i + 2, squared(noise.lensWeights()));
+    pose_information.add(i + 3, i + 3, squared(noise.radialWeights()));
   }
 
   std::vector<Block> covariances;
@@ -119,6 +126,9 @@ std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const
   }
 
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> pose_solver(pose_information.toSparse());
+  if (pose_solver.info() != Eigen::Success || !(pose_solver.vectorD().minCoeff() > 0))
+    throw std::runtime_error(
+        "the map's covariance cannot be computed: the poses' information is not positive definite");
   for (int b = 0; b < blocks; ++b) {
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(3 * blocks, 3);
     unit.middleRows<3>(3 * b).setIdentity();

@@ -34,6 +34,7 @@ void MapBuilderOptions::check() const {
   require(isAtLeast(sigma_mount_tilt, 0), "sigma_mount_tilt", sigma_mount_tilt);
   require(isAtLeast(sigma_mount_shift, 0), "sigma_mount_shift", sigma_mount_shift);
   require(isAtLeast(sigma_focal, 0), "sigma_focal", sigma_focal);
+  require(isAtLeast(sigma_radial, 0), "sigma_radial", sigma_radial);
   require(words >= 1, "words", words);
 }
 
@@ -86,7 +87,10 @@ int MapBuilder::addCamera(MapCamera camera) {
   FeatureOptions features = state_->options.features;
   camera.mask_rows_from_top = std::max(camera.mask_rows_from_top, features.mask_rows_from_top);
   features.mask_rows_from_top = camera.mask_rows_from_top;
-  KeyframeMap{features, {camera}, {}, {}, {}, {}}.check();
+  KeyframeMap of_camera;
+  of_camera.feature_options = features;
+  of_camera.cameras = {camera};
+  of_camera.check();
   state_->extractors.emplace_back(features);
   state_->cameras.push_back(std::move(camera));
   state_->last_keyframe.emplace_back();
@@ -133,6 +137,19 @@ void addLandmarks(KeyframeMap& map, const Reconstruction& scene, const MapBuilde
   }
 }
 
+/// Of the keyframes' poses as adjusted against as given, in the robot frame. The priors count as one keyframe more,
+/// which keeps few keyframes from looking exact.
+Eigen::Matrix3d poseCovariance(const Reconstruction& scene, const MapBuilderOptions& options) {
+  const Eigen::Vector3d prior(options.sigma_position, options.sigma_position, options.sigma_heading);
+  Eigen::Matrix3d sum = prior.cwiseAbs2().asDiagonal();
+  for (std::size_t k = 0; k < scene.keyframes.size(); ++k) {
+    const PlanarPose off = inverse(planarPart(scene.keyframes[k].map_from_robot)) * scene.map_from_robot[k];
+    const Eigen::Vector3d error(off.x, off.y, off.phi);
+    sum += error * error.transpose();
+  }
+  return sum / static_cast<double>(scene.keyframes.size());
+}
+
 void addPlaces(KeyframeMap& map, const MapBuilderOptions& options) {
   std::vector<const FeatureSet*> sets;
   for (const Keyframe& keyframe : map.keyframes) sets.push_back(&keyframe.features);
@@ -140,6 +157,20 @@ void addPlaces(KeyframeMap& map, const MapBuilderOptions& options) {
   map.place_descriptors.resize(map.vocabulary.words().size(), std::ssize(sets));
   for (Eigen::Index i = 0; i < map.place_descriptors.cols(); ++i)
     map.place_descriptors.col(i) = map.vocabulary.describe(*sets[static_cast<std::size_t>(i)]);
+}
+
+/// Features are kept as ideal pixels of the corrected cameras. Where the corrected distortion has no inverse, far off
+/// the axis, no landmark is seen and the pixel stays.
+void correctPixels(KeyframeMap& map, const Reconstruction& scene) {
+  for (int k = 0; k < std::ssize(map.keyframes); ++k) {
+    Keyframe& keyframe = map.keyframes[static_cast<std::size_t>(k)];
+    const CameraCalibration& calibration = map.cameras[static_cast<std::size_t>(keyframe.camera)].calibration;
+    for (int i = 0; i < keyframe.features.size(); ++i) {
+      const Eigen::Vector2d distorted = scene.distortedPixel({k, i}), ideal = calibration.undistort(distorted);
+      if ((calibration.distort(ideal) - distorted).norm() < 0.1)
+        keyframe.features.pixels[static_cast<std::size_t>(i)] = ideal.cast<float>();
+    }
+  }
 }
 
 MapBuildReport report(const KeyframeMap& map, const Reconstruction& scene, int frames) {
@@ -190,7 +221,9 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   map.keyframes = scene.keyframes;
   for (std::size_t k = 0; k < map.keyframes.size(); ++k)
     map.keyframes[k].map_from_robot = toRigid3(scene.map_from_robot[k]);
+  correctPixels(map, scene);
   addLandmarks(map, scene, options);
+  map.pose_covariance = poseCovariance(scene, options);
   addPlaces(map, options);
   report_progress("describing places", 1);
   map.check();

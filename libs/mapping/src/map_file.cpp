@@ -17,6 +17,7 @@
 //   keyframes   count; each: time f64, camera i32, pose f64[12], feature count, descriptor bytes (count),
 //               pixels f32[n][2], sizes f32[n], responses f32[n], descriptors u8[n][bytes], landmarks i32[n]
 //   landmarks   count; each: point f64[3], lower triangle of the covariance f64[6], observation count i32
+//   poses       lower triangle of their covariance f64[6]
 //   vocabulary  rows, columns (counts), f32 by columns
 //   places      rows, columns (counts), f32 by columns
 
@@ -130,19 +131,28 @@ Keyframe getKeyframe(ByteReader& in, FeatureKind kind) {
   return keyframe;
 }
 
+void putCovariance(ByteWriter& out, const Eigen::Matrix3d& covariance) {
+  for (int column = 0; column < 3; ++column)
+    for (int row = column; row < 3; ++row) out.put(covariance(row, column));
+}
+
+Eigen::Matrix3d getCovariance(ByteReader& in) {
+  Eigen::Matrix3d covariance;
+  for (int column = 0; column < 3; ++column)
+    for (int row = column; row < 3; ++row) covariance(row, column) = covariance(column, row) = in.get<double>();
+  return covariance;
+}
+
 void putLandmark(ByteWriter& out, const Landmark& landmark) {
   out.putAll(std::span<const double>(landmark.point_in_map.data(), 3));
-  for (int column = 0; column < 3; ++column)
-    for (int row = column; row < 3; ++row) out.put(landmark.covariance(row, column));
+  putCovariance(out, landmark.covariance);
   out.put<int32_t>(landmark.observation_count);
 }
 
 Landmark getLandmark(ByteReader& in) {
   Landmark landmark;
   in.getAll(std::span<double>(landmark.point_in_map.data(), 3));
-  for (int column = 0; column < 3; ++column)
-    for (int row = column; row < 3; ++row)
-      landmark.covariance(row, column) = landmark.covariance(column, row) = in.get<double>();
+  landmark.covariance = getCovariance(in);
   landmark.observation_count = in.get<int32_t>();
   return landmark;
 }
@@ -158,6 +168,7 @@ std::string encodeContent(const KeyframeMap& map) {
   for (const Keyframe& keyframe : map.keyframes) putKeyframe(out, keyframe);
   out.putCount(map.landmarks.size());
   for (const Landmark& landmark : map.landmarks) putLandmark(out, landmark);
+  putCovariance(out, map.pose_covariance);
   putMatrix(out, map.vocabulary.words());
   putMatrix(out, map.place_descriptors);
   return out.take();
@@ -175,6 +186,7 @@ KeyframeMap decodeContent(std::string_view content) {
   for (Keyframe& keyframe : map.keyframes) keyframe = getKeyframe(in, map.feature_options.kind);
   map.landmarks.resize(in.getCount(landmark_bytes));
   for (Landmark& landmark : map.landmarks) landmark = getLandmark(in);
+  map.pose_covariance = getCovariance(in);
   if (Eigen::MatrixXf words = getMatrix(in); words.size() > 0)
     map.vocabulary = VladVocabulary(map.feature_options.kind, std::move(words));
   map.place_descriptors = getMatrix(in);

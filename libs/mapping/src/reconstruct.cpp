@@ -59,8 +59,8 @@ std::vector<ObservationMatch> consistentMatches(const Reconstruction& scene, std
         std::hypot(sigma_px / std::min(first.camera.fx, second.camera.fx), poses.ofDirection(usual_depth, difference));
     for (const FeatureMatch& match : pair.matches) {
       const Observation seen_first{pair.first, match.query}, seen_second{pair.second, match.reference};
-      const double distance = epipolarArcDistance(first.camera.ray(scene.pixel(seen_first)).normalized(),
-                                                  second.camera.ray(scene.pixel(seen_second)).normalized(),
+      const double distance = epipolarArcDistance(first.camera.ray(scene.idealPixel(seen_first)).normalized(),
+                                                  second.camera.ray(scene.idealPixel(seen_second)).normalized(),
                                                   second_from_first, nearest_scene);
       if (distance < gate * std::sqrt(2) * sigma_each) consistent.push_back({seen_first, seen_second, match.ratio});
     }
@@ -117,8 +117,8 @@ std::vector<int> featureCounts(const Reconstruction& scene) {
 }  // namespace
 
 AdjustmentNoise adjustmentNoise(const MapBuilderOptions& options) {
-  return {options.sigma_px,         options.sigma_position,    options.sigma_heading,
-          options.sigma_mount_tilt, options.sigma_mount_shift, options.sigma_focal};
+  return {options.sigma_px,          options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
+          options.sigma_mount_shift, options.sigma_focal,    options.sigma_radial};
 }
 
 void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const BuildProgress& progress) {
@@ -138,7 +138,7 @@ void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const 
 std::vector<Sighting> sightings(const Reconstruction& scene, const Track& track) {
   std::vector<Sighting> seen;
   for (const Observation& observation : track)
-    seen.push_back({scene.view(observation.keyframe), scene.pixel(observation)});
+    seen.push_back({scene.view(observation.keyframe), scene.idealPixel(observation)});
   return seen;
 }
 

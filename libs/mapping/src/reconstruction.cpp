@@ -3,13 +3,28 @@
 
 namespace vmcl {
 
-CameraCalibration withFocalLengthScaled(CameraCalibration calibration, double scale) {
-  calibration.pinhole.fx *= scale;
-  calibration.pinhole.fy *= scale;
-  const double s2 = scale * scale;
-  const double factors[] = {s2, s2 * s2, scale, scale, s2 * s2 * s2};  // of k1, k2, p1, p2, k3
-  for (std::size_t i = 0; i < 5; ++i) calibration.distortion[i] *= factors[i];
-  return calibration;
+CameraCalibration Reconstruction::calibration(int camera) const {
+  const auto i = static_cast<std::size_t>(camera);
+  CameraCalibration corrected = cameras[i].calibration;
+  const CameraCorrection& correction = corrections[i];
+  corrected.pinhole.fx *= 1 + correction.lens[0];
+  corrected.pinhole.fy *= 1 + correction.lens[0];
+  corrected.pinhole.cx += correction.lens[1];
+  corrected.pinhole.cy += correction.lens[2];
+  corrected.distortion[0] += correction.radial[0];
+  corrected.distortion[1] += correction.radial[1];
+  corrected.distortion[4] += correction.radial[2];
+  return corrected;
+}
+
+Eigen::Vector2d Reconstruction::distortedPixel(const Observation& observation) const {
+  const Keyframe& keyframe = keyframes[static_cast<std::size_t>(observation.keyframe)];
+  return cameras[static_cast<std::size_t>(keyframe.camera)].calibration.distort(givenPixel(observation));
+}
+
+Eigen::Vector2d Reconstruction::idealPixel(const Observation& observation) const {
+  const int camera = keyframes[static_cast<std::size_t>(observation.keyframe)].camera;
+  return calibration(camera).undistort(distortedPixel(observation));
 }
 
 }  // namespace vmcl

@@ -38,11 +38,8 @@ struct CameraCorrection {
                                                        ///< does not show it
   Eigen::Vector3d lens = Eigen::Vector3d::Zero();      ///< relative change of the focal lengths; shift of the principal
                                                        ///< point (px), which stays 0: it looks like a turn of the mount
+  Eigen::Vector3d radial = Eigen::Vector3d::Zero();    ///< change of k1, k2 and k3; that of k3 stays 0
 };
-
-/// The camera with its focal lengths scaled. The lens coefficients change so that the same ideal pixels belong to the
-/// same real ones.
-CameraCalibration withFocalLengthScaled(CameraCalibration calibration, double scale);
 
 /// What the builder knows of the scene and of where its keyframes were taken.
 struct Reconstruction {
@@ -60,10 +57,7 @@ struct Reconstruction {
     return corrected;
   }
 
-  CameraCalibration calibration(int camera) const {
-    const auto i = static_cast<std::size_t>(camera);
-    return withFocalLengthScaled(cameras[i].calibration, 1 + corrections[i].lens[0]);
-  }
+  CameraCalibration calibration(int camera) const;
 
   ReferenceCamera view(int keyframe) const {
     const auto k = static_cast<std::size_t>(keyframe);
@@ -71,11 +65,18 @@ struct Reconstruction {
     return {calibration(camera).pinhole, toRigid3(map_from_robot[k]) * robotFromCamera(camera)};
   }
 
-  Eigen::Vector2d pixel(const Observation& observation) const {
+  /// Pixel of the camera as it was given, without its distortion: as features are.
+  Eigen::Vector2d givenPixel(const Observation& observation) const {
     return keyframes[static_cast<std::size_t>(observation.keyframe)]
         .features.pixels[static_cast<std::size_t>(observation.feature)]
         .cast<double>();
   }
+
+  /// Pixel of the real image.
+  Eigen::Vector2d distortedPixel(const Observation& observation) const;
+
+  /// Ideal pixel of the camera as it is now thought to be.
+  Eigen::Vector2d idealPixel(const Observation& observation) const;
 };
 
 }  // namespace vmcl

@@ -43,11 +43,14 @@ struct KeyframeMap {
   std::vector<MapCamera> cameras;
   std::vector<Keyframe> keyframes;
   std::vector<Landmark> landmarks;
+  /// How far the keyframes' poses (x, y, phi) stand from those that they were made from: covariance in the robot frame
+  /// (m, rad). Whichever of the two errs, a pose found in the map shares it, however many landmarks it rests on.
+  Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
   VladVocabulary vocabulary;
   Eigen::MatrixXf place_descriptors;  ///< one column a keyframe
 
-  /// Throws std::invalid_argument naming the broken entry: indices out of range, sizes that disagree, values that are
-  /// not finite.
+  /// Throws std::invalid_argument naming the broken entry: indices out of range, sizes that disagree or exceed their
+  /// bounds, values that are not finite.
   void check() const;
 
   ReferenceCamera referenceCamera(const Keyframe& keyframe) const {

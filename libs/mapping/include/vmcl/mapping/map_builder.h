@@ -22,6 +22,7 @@ struct MapBuilderOptions {
   double sigma_mount_tilt = 0.05;   ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
   double sigma_mount_shift = 0.0;   ///< prior of the given mount's x and y (m); 0: exact
   double sigma_focal = 0.03;        ///< prior of the given focal lengths, relative; 0: exact
+  double sigma_radial = 0.1;        ///< prior of the given radial distortion k1 and k2; 0: exact
   int words = 64;                   ///< vocabulary of place recognition
   uint64_t seed = 1;
 

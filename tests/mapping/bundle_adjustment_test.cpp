@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle_adjustment.h"
+
+#include <gtest/gtest.h>
+
+#include "landmark_covariance.h"
+#include "synthetic_room.h"
+
+namespace vmcl {
+namespace {
+
+/// Three views of one point, which is not a number.
+Reconstruction brokenScene() {
+  Reconstruction scene;
+  scene.cameras = {testing::forwardCamera()};
+  scene.corrections.resize(1);
+  scene.keyframes.resize(3);
+  scene.map_from_robot.resize(3);
+  for (Keyframe& keyframe : scene.keyframes) keyframe.features.pixels.emplace_back(320, 240);
+  scene.points.push_back({Eigen::Vector3d::Constant(std::nan("")), {{0, 0}, {1, 0}, {2, 0}}});
+  return scene;
+}
+
+TEST(BundleAdjustment, SaysThatItFailed) {
+  Reconstruction scene = brokenScene();
+  EXPECT_THROW(adjust(scene, {}), std::runtime_error);
+}
+
+TEST(LandmarkCovariance, SaysThatItFailed) { EXPECT_THROW(pointCovariances(brokenScene(), {}), std::runtime_error); }
+
+}  // namespace
+}  // namespace vmcl
