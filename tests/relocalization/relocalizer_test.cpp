@@ -93,18 +93,32 @@ TEST_F(RelocalizerTest, StatesAWholeProblem) {
   EXPECT_GT(good, 0.8 * with_depth);
 }
 
-TEST_F(RelocalizerTest, CountsALandmarkOnce) {
+TEST_F(RelocalizerTest, CountsALandmarkAndAPlaceOfTheImageOnce) {
   const Image image = room_.look(truth_, SyntheticRoom::mount());
   const auto result = Relocalizer(map_, {.retrieved = 4}).match({{query(image)}});
   std::set<std::array<double, 3>> points;
   std::set<std::pair<double, double>> pixels;
   for (const Match& match : result.problem.matches) {
+    EXPECT_TRUE(pixels.insert({match.query_pixel.x(), match.query_pixel.y()}).second);
     if (!match.point) continue;
     const Eigen::Vector3d& p = match.point->point_in_map;
     EXPECT_TRUE(points.insert({p.x(), p.y(), p.z()}).second);
-    EXPECT_TRUE(pixels.insert({match.query_pixel.x(), match.query_pixel.y()}).second);
   }
   EXPECT_GT(points.size(), 80u);
+}
+
+TEST_F(RelocalizerTest, IsNoSurerThanTheMap) {
+  KeyframeMap uncertain = *map_;
+  uncertain.pose_covariance = Eigen::Vector3d(4e-4, 1e-4, 9e-4).asDiagonal();
+  const Image image = room_.look(truth_back_, SyntheticRoom::mount());
+  const auto modeIn = [&](std::shared_ptr<const KeyframeMap> map) {
+    return Relocalizer(std::move(map), {}).relocalize({{query(image)}}).estimate.modes.at(0);
+  };
+  const PoseMode certain = modeIn(map_), widened = modeIn(std::make_shared<const KeyframeMap>(uncertain));
+  const double c = std::cos(certain.robot_in_map.phi), s = std::sin(certain.robot_in_map.phi);
+  Eigen::Matrix3d expected;
+  expected << 4e-4 * c * c + 1e-4 * s * s, 3e-4 * c * s, 0, 3e-4 * c * s, 4e-4 * s * s + 1e-4 * c * c, 0, 0, 0, 9e-4;
+  EXPECT_TRUE((widened.covariance - certain.covariance).isApprox(expected, 1e-6));
 }
 
 TEST_F(RelocalizerTest, SharesAReferenceAmongTheImagesOfARig) {

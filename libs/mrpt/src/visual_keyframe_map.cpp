@@ -218,7 +218,7 @@ PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observ
   }
   EstimatorOptions options = options_.relocalizer.estimator;
   options.seed = seed;
-  return estimatePose(measurement->problem, options);
+  return estimatePose(measurement->problem, *content(), options);
 }
 
 void VisualKeyframeMap::extend(PoseBox& box) const {

@@ -42,31 +42,22 @@ double largestSigma(const Landmark& landmark) {
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
-/// Each landmark and each place of the query image gives 2D-3D evidence once, by its most distinctive match: a
-/// landmark seen through several references is one point measured once, and features that differ in orientation alone
-/// are one place. Of a landmark so used the other matches say nothing new.
-std::vector<Candidate> withoutRepetition(std::vector<Candidate> candidates, const FeatureSet& query,
-                                         const std::vector<const FeatureSet*>& references) {
+/// Each place of the query image was measured once and gives one match, with depth if there is such a one, by the most
+/// distinctive feature: matches with several references, and features that differ in orientation alone, share its
+/// error. So does a landmark, seen through whatever reference.
+std::vector<Candidate> withoutRepetition(std::vector<Candidate> candidates, const FeatureSet& query) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::tuple(!a.has_reliable_depth, a.ratio) < std::tuple(!b.has_reliable_depth, b.ratio);
   });
-  const auto place = [](const FeatureSet& features, int row) {
-    const Eigen::Vector2f& pixel = features.pixels[static_cast<std::size_t>(row)];
-    return std::pair(pixel.x(), pixel.y());
-  };
   std::set<int> used_landmarks;
   std::set<std::pair<float, float>> used_places;
-  std::set<std::tuple<std::pair<float, float>, int, std::pair<float, float>>> used_pairs;
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    const auto query_place = place(query, candidate.query_feature);
-    const FeatureSet& reference = *references[static_cast<std::size_t>(candidate.reference_camera)];
-    if (candidate.landmark >= 0 && used_landmarks.contains(candidate.landmark)) return true;
-    if (candidate.has_reliable_depth) {
-      if (!used_places.insert(query_place).second) return true;
-      used_landmarks.insert(candidate.landmark);
-    }
-    return !used_pairs.insert({query_place, candidate.reference_camera, place(reference, candidate.reference_feature)})
-                .second;
+    const Eigen::Vector2f& pixel = query.pixels[static_cast<std::size_t>(candidate.query_feature)];
+    const std::pair place(pixel.x(), pixel.y());
+    if (used_places.contains(place)) return true;
+    if (candidate.landmark >= 0 && !used_landmarks.insert(candidate.landmark).second) return true;
+    used_places.insert(place);
+    return false;
   });
   return candidates;
 }
@@ -82,6 +73,16 @@ void RelocalizerOptions::check() const {
   require(retrieved >= 1, "retrieved", retrieved);
   require(reliable_depth > 0, "reliable_depth", reliable_depth);
   require(max_point_sigma > 0, "max_point_sigma", max_point_sigma);
+}
+
+PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, const EstimatorOptions& options) {
+  PoseEstimate estimate = estimatePose(problem, options);
+  for (PoseMode& mode : estimate.modes) {
+    const Eigen::Matrix3d map_from_robot =
+        Eigen::AngleAxisd(mode.robot_in_map.phi, Eigen::Vector3d::UnitZ()).toRotationMatrix();  // of (x, y, phi), too
+    mode.covariance += map_from_robot * map.pose_covariance * map_from_robot.transpose();
+  }
+  return estimate;
 }
 
 struct Relocalizer::State {
@@ -154,9 +155,7 @@ struct Relocalizer::State {
         retrieve(map->place_descriptors, map->vocabulary.describe(query), options.retrieved);
     stopwatch.addTo(result.times.retrieval);
     std::vector<Candidate> all = candidates(query, places, result);
-    std::vector<const FeatureSet*> references;
-    for (int index : result.keyframes) references.push_back(&keyframe(index).features);
-    for (const Candidate& candidate : withoutRepetition(std::move(all), query, references))
+    for (const Candidate& candidate : withoutRepetition(std::move(all), query))
       result.problem.matches.push_back(toMatch(candidate, query, query_camera, result));
     stopwatch.addTo(result.times.matching);
   }
@@ -188,7 +187,7 @@ RelocalizationResult Relocalizer::match(std::span<const QueryImage> images) cons
 RelocalizationResult Relocalizer::relocalize(std::span<const QueryImage> images) const {
   RelocalizationResult result = match(images);
   Stopwatch stopwatch;
-  result.estimate = estimatePose(result.problem, state_->options.estimator);
+  result.estimate = estimatePose(result.problem, map(), state_->options.estimator);
   stopwatch.addTo(result.times.estimation);
   return result;
 }

@@ -47,6 +47,9 @@ struct RelocalizationResult {
   RelocalizationTimes times;
 };
 
+/// estimatePose with the covariance of each mode widened by that of the map's poses, which all matches share.
+PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, const EstimatorOptions& options);
+
 /// Finds the robot in the map from its images alone: features, place recognition, matching, estimation. Thread safe.
 class Relocalizer {
  public:
