@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   vmcl::addLocalizeVerb(app, exit_code);
   vmcl::addRelocalizeVerb(app, exit_code);
   vmcl::addEstimateVerb(app, exit_code);
+  vmcl::addBenchVerb(app, exit_code);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A verb");

@@ -14,6 +14,7 @@ enum ExitCode : int {
 
 /// Each adds its verb: options, help with an example, and a callback that does the work and sets the exit code. What
 /// the callback throws is printed as one line and ends in exit_failed.
+void addBenchVerb(CLI::App& app, int& exit_code);
 void addEstimateVerb(CLI::App& app, int& exit_code);
 void addImportVerb(CLI::App& app, int& exit_code);
 void addLocalizeVerb(CLI::App& app, int& exit_code);

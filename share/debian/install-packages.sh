@@ -10,6 +10,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev
   libgl1-mesa-dri # renders without a GPU, for the simulator
   gnuplot-nox
+  libopengv-dev # peers of vmcl bench
   # the rest serves the tests and the demo
   libgtest-dev libgmock-dev python3
   mrpt-apps mrpt-common # the stock pf-localization and its laser demo

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <sstream>
-#include <stdexcept>
 
+#include "gnuplot.h"
 #include "vmcl/evaluation/localization_picture.h"
 #include "vmcl/geometry/atomic_file.h"
 #include "vmcl/mrpt/visual_keyframe_map.h"
@@ -79,12 +74,6 @@ std::vector<Layer> layersOf(const LocalizationRun& run, const mrpt::maps::CMulti
   return layers;
 }
 
-std::string quoted(const std::filesystem::path& file) {
-  std::string quoted = "'";
-  for (const char c : file.string()) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-  return quoted + "'";
-}
-
 void writeScript(std::ostream& script, const std::vector<Layer>& layers, const std::filesystem::path& svg,
                  const std::filesystem::path& png) {
   for (std::size_t i = 0; i < layers.size(); ++i)
@@ -96,36 +85,6 @@ void writeScript(std::ostream& script, const std::vector<Layer>& layers, const s
   script << "\nset terminal pngcairo size 900,700\nset output " << quoted(png) << "\nreplot\n";
 }
 
-/// All that is written to a pipe, until its last writer ends.
-std::string readAll(int pipe) {
-  std::string text;
-  char buffer[512];
-  for (ssize_t bytes; (bytes = read(pipe, buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<size_t>(bytes));
-  return text;
-}
-
-/// What gnuplot complained of, in one line; empty when it was content.
-std::string runGnuplot(const std::filesystem::path& script) {
-  std::string program = "gnuplot", argument = script.string();
-  char* arguments[] = {program.data(), argument.data(), nullptr};
-  int complaints[2];
-  if (pipe2(complaints, O_CLOEXEC) != 0) return "no pipe to it";
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, complaints[1], STDERR_FILENO);
-  pid_t process = 0;
-  const int error = posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(complaints[1]);
-  std::string said = readAll(complaints[0]);
-  close(complaints[0]);
-  if (error != 0) return "cannot be started: is it installed?";
-  int status = 0;
-  if (waitpid(process, &status, 0) == process && status == 0) return {};
-  std::ranges::replace(said, '\n', ' ');
-  return "failed: " + said;
-}
-
 }  // namespace
 
 void drawPath(const std::filesystem::path& stem, const LocalizationRun& run, const mrpt::maps::CMultiMetricMap& maps) {
@@ -134,8 +93,7 @@ void drawPath(const std::filesystem::path& stem, const LocalizationRun& run, con
   AtomicFile script(stem.string() + ".gnuplot"), svg(stem.string() + ".svg"), png(stem.string() + ".png");
   writeScript(script.stream(), layers, svg.temporaryPath(), png.temporaryPath());
   script.stream().flush();
-  if (const std::string complaint = runGnuplot(script.temporaryPath()); !complaint.empty())
-    throw std::runtime_error(stem.string() + ".svg: cannot be drawn: gnuplot " + complaint);
+  runGnuplot(script.temporaryPath(), stem.string() + ".svg");
   svg.commit();
   png.commit();
 }

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/study/study.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+
+#include "vmcl/estimation/likelihood.h"
+#include "vmcl/estimation/pose_refiner.h"
+#include "vmcl/study/cramer_rao_bound.h"
+
+namespace vmcl {
+namespace {
+
+constexpr double min_sigma_px = 0.5;      // methods are told no less: no camera is better
+constexpr double threshold_in_sigma = 4;  // of inliers; tighter ones serve no method better, as points are off as well
+
+std::vector<StudyCell> allCells() {
+  std::vector<StudyCell> cells;
+  const auto add = [&](Figure figure, const WorldSettings& world) {
+    cells.push_back({figure, static_cast<int>(cells.size()), world});
+  };
+  for (const int cameras : {1, 3})
+    for (const double noise_px : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0})
+      add(Figure::accuracy, {World::paper, cameras, 50, 0, 1, noise_px});
+  for (const World world : {World::paper, World::authors, World::uniform})
+    for (const int cameras : {1, 3})
+      for (const double outlier_rate : {0.5, 0.6, 0.7, 0.8})
+        for (const double depth_rate : {0.5, 0.3, 0.1})
+          add(Figure::success, {world, cameras, 50, outlier_rate, depth_rate, 2});
+  for (const int matches : {50, 100, 200, 500, 1000, 2000, 5000, 10000})
+    add(Figure::cost_of_matches, {World::paper, 1, matches, 0.5, 0.5, 2});
+  for (const int cameras : {1, 2, 3, 4, 5, 6}) add(Figure::cost_of_cameras, {World::paper, cameras, 50, 0.5, 0.5, 2});
+  return cells;
+}
+
+PoseError errorOf(const PlanarPose& pose, const PlanarPose& truth) {
+  return {std::hypot(pose.x - truth.x, pose.y - truth.y), std::abs(wrapAngle(pose.phi - truth.phi))};
+}
+
+/// Processor time of this thread: other work on the machine does not count.
+double threadSeconds() {
+  std::timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+template <class Estimate>
+MethodOutcome outcomeOf(const PlanarPose& truth, const Estimate& estimate) {
+  const double start = threadSeconds();
+  const std::vector<PlanarPose> poses = estimate();
+  MethodOutcome outcome;
+  outcome.seconds = threadSeconds() - start;
+  if (!poses.empty()) outcome.error = errorOf(poses.front(), truth);
+  outcome.any_success =
+      std::any_of(poses.begin(), poses.end(), [&](const PlanarPose& pose) { return errorOf(pose, truth).isSuccess(); });
+  return outcome;
+}
+
+std::vector<PlanarPose> optimizedFromTruth(const SimulatedProblem& simulated, const MethodSettings& settings) {
+  LikelihoodOptions options;
+  options.sigma_px = settings.sigma_px;
+  const PoseLikelihood likelihood(simulated.problem, options);
+  return {PoseRefiner(likelihood, {}).refine(PlanarTransform(simulated.map_from_robot)).map_from_robot};
+}
+
+std::optional<PoseError> cramerRaoErrors(const SimulatedProblem& simulated, double noise_px) {
+  constexpr double no_noise_px = 1e-3;  // stands for none, with which the bound has no value
+  const auto covariance = cramerRaoBound(simulated, std::max(noise_px, no_noise_px));
+  if (!covariance) return std::nullopt;
+  return PoseError{std::sqrt(covariance->topLeftCorner<2, 2>().trace()), std::sqrt((*covariance)(2, 2))};
+}
+
+/// At the share q of the sorted values; 0 for none.
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+ErrorSummary errorSummary(const std::vector<double>& errors) {
+  std::vector<double> squares;
+  for (const double error : errors) squares.push_back(error * error);
+  return {rootMean(squares), bootstrapRootMean(squares), quantile(errors, 0.5)};
+}
+
+/// Counts and errors of one row, over what error_of(trial) gives.
+template <class ErrorOf>
+MethodSummary summarizeErrors(const std::string& name, const std::vector<TrialResult>& trials, ErrorOf&& error_of) {
+  MethodSummary summary;
+  summary.method = name;
+  summary.trials = static_cast<int>(trials.size());
+  std::vector<double> distances, angles;
+  for (const TrialResult& trial : trials) {
+    const std::optional<PoseError>& error = error_of(trial);
+    if (!error) continue;
+    ++summary.answered;
+    summary.successes += error->isSuccess();
+    distances.push_back(error->distance);
+    angles.push_back(error->angle);
+  }
+  summary.distance = errorSummary(distances);
+  summary.angle = errorSummary(angles);
+  return summary;
+}
+
+}  // namespace
+
+std::string_view nameOf(Figure figure) {
+  switch (figure) {
+    case Figure::accuracy:
+      return "accuracy";
+    case Figure::success:
+      return "success";
+    case Figure::cost_of_matches:
+      return "cost-matches";
+    case Figure::cost_of_cameras:
+      return "cost-cameras";
+  }
+  throw std::invalid_argument("no such figure");
+}
+
+std::vector<StudyCell> studyCells(const std::vector<Figure>& figures) {
+  std::vector<StudyCell> cells = allCells();
+  std::erase_if(cells, [&](const StudyCell& cell) {
+    return std::find(figures.begin(), figures.end(), cell.figure) == figures.end();
+  });
+  return cells;
+}
+
+std::vector<PoseMethod> methodsOf(const StudyCell& cell) {
+  std::vector<PoseMethod> methods = poseMethods();
+  if (cell.world.cameras > 1 || cell.figure == Figure::cost_of_cameras)
+    std::erase_if(methods, [](const PoseMethod& method) { return !method.takes_rigs; });
+  return methods;
+}
+
+MethodSettings settingsOf(const StudyCell& cell, int trial) {
+  MethodSettings settings;
+  settings.sigma_px = std::max(cell.world.noise_px, min_sigma_px);
+  settings.threshold_px = threshold_in_sigma * std::max(cell.world.noise_px, 2.0);
+  settings.seed = static_cast<uint64_t>(trial) + 1;
+  return settings;
+}
+
+TrialResult runTrial(const StudyCell& cell, const std::vector<PoseMethod>& methods, uint64_t seed, int trial) {
+  Random random(seed, static_cast<uint64_t>(cell.number) << 32 | static_cast<uint64_t>(trial));
+  const SimulatedProblem simulated = simulateProblem(cell.world, random);
+  const MethodSettings settings = settingsOf(cell, trial);
+  TrialResult result;
+  for (const PoseMethod& method : methods)
+    result.outcomes.push_back(
+        outcomeOf(simulated.map_from_robot, [&] { return method.estimate(simulated.problem, settings); }));
+  result.outcomes.push_back(
+      outcomeOf(simulated.map_from_robot, [&] { return optimizedFromTruth(simulated, settings); }));
+  result.cramer_rao = cramerRaoErrors(simulated, cell.world.noise_px);
+  return result;
+}
+
+std::vector<MethodSummary> summarize(const std::vector<PoseMethod>& methods, const std::vector<TrialResult>& trials) {
+  std::vector<MethodSummary> rows;
+  for (std::size_t m = 0; m <= methods.size(); ++m) {
+    const auto outcome = [m](const TrialResult& trial) -> const MethodOutcome& { return trial.outcomes[m]; };
+    MethodSummary& row = rows.emplace_back(summarizeErrors(
+        m < methods.size() ? methods[m].name : bound_name, trials,
+        [&](const TrialResult& trial) -> const std::optional<PoseError>& { return outcome(trial).error; }));
+    std::vector<double> seconds;
+    for (const TrialResult& trial : trials) {
+      row.any_successes += outcome(trial).any_success;
+      seconds.push_back(outcome(trial).seconds);
+    }
+    row.seconds = {quantile(seconds, 0.25), quantile(seconds, 0.5), quantile(seconds, 0.75)};
+  }
+  rows.push_back(summarizeErrors(
+      cramer_rao_name, trials, [](const TrialResult& trial) -> const auto& { return trial.cramer_rao; }));
+  return rows;
+}
+
+}  // namespace vmcl
