@@ -47,6 +47,9 @@ void printMethods(std::ostream& out) {
   for (const PoseMethod& method : poseMethods()) out << method.name << ": " << method.description << '\n';
   out << bound_name << ": the likelihood optimized from the true pose\n"
       << cramer_rao_name << ": what the best unbiased estimator that knew the inliers could reach\n";
+  out << "Matches without depth help vmcl and 1P1DP alone: the other methods have no use for them. AP3P, EPnP, MAGSAC "
+         "and\n"
+      << "P3P take part with one camera only. Poses with six degrees of freedom are cut down to x, y and heading.\n";
   if (!hasOpenGv()) out << "P3P, GP3P, UPnP: absent, vmcl was built without OpenGV\n";
 }
 

@@ -125,7 +125,7 @@ class EstimateTest(CommandTest):
 class UsageTest(CommandTest):
     def test_help_and_version(self):
         self.assertIn('estimate', self.succeed('--help'))
-        for verb in (['estimate'], ['import', 'tum'], ['localize'], ['map'], ['relocalize'], ['simulate']):
+        for verb in (['bench'], ['estimate'], ['import', 'tum'], ['localize'], ['map'], ['relocalize'], ['simulate']):
             self.assertIn('Example', self.succeed(*verb, '--help'), verb)
         self.assertRegex(self.succeed('--version'), r'^\d+\.\d+\.\d+\n$')
 
