@@ -2,6 +2,7 @@
 #include <chrono>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "estimation_json.h"
@@ -82,6 +83,15 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("--sigma-px", options->estimator.likelihood.sigma_px, "standard deviation of a pixel coordinate")
+      ->capture_default_str();
+  const auto inDegrees = [](double& radians) {
+    return [&radians](double degrees) { radians = degrees * std::numbers::pi / 180; };
+  };
+  verb->add_option_function<double>("--sigma-tilt-deg", inDegrees(options->estimator.plane.sigma_tilt),
+                                    "standard deviation of the robot's roll and pitch; 0: it stands upright")
+      ->default_str("0");
+  verb->add_option("--sigma-height", options->estimator.plane.sigma_height,
+                   "standard deviation of its height over the plane, m; 0: it stands on it")
       ->capture_default_str();
   verb->add_option("--threads", options->threads, "problems worked on at once; the answers do not depend on it")
       ->check(CLI::Range(1, 1024))

@@ -116,7 +116,8 @@ class EstimateTest(CommandTest):
     def test_options_out_of_range(self):
         for option, value in (('--iterations', '0'), ('--iterations', 'x'), ('--sigma-px', 'nan'), ('--sigma-px', '-1'),
                               ('--sigma-px', 'inf'), ('--threads', '0'), ('--solver', 'magic'), ('--seed', 'x'),
-                              ('--seed', '-1')):
+                              ('--seed', '-1'), ('--sigma-tilt-deg', '90'), ('--sigma-tilt-deg', '-1'),
+                              ('--sigma-height', 'nan')):
             with self.subTest(option=option, value=value):
                 name = option.strip('-').split('-', maxsplit=1)[0]
                 self.assert_refused(['estimate', option, value], name)

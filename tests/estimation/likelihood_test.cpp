@@ -33,7 +33,7 @@ TEST(PoseLikelihood, MatchWithDepthIsTheFormula) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   covariance(1, 1) = 0.05 * 0.05;
   problem.matches.push_back({0, {643, 481}, 0, {640, 480}, MapPoint{{4, 0, 0}, covariance}});
-  const LikelihoodOptions options{.sigma_px = 2, .inlier_prior = 0.25};
+  const LikelihoodOptions options{.sigma_px = 2, .inlier_prior = 0.25, .level_outliers = false};
   const double su2 = 4 + 100, sv2 = 4;
   const double p = std::exp(-0.5 * (9 / su2 + 1 / sv2)) / (2 * M_PI * std::sqrt(su2 * sv2));
   EXPECT_NEAR(PoseLikelihood(problem, options)(PlanarPose{}), std::log(0.75 + 0.25 * p * 1280 * 960), 1e-9);
@@ -50,7 +50,7 @@ TEST(PoseLikelihood, MatchWithoutDepthIsADensityOverTheImage) {
   problem.query_cameras.push_back({test_camera, mount});
   problem.reference_cameras.push_back({test_camera, mount});
   problem.matches.push_back({0, {0, 0}, 0, {640, 480}, {}});
-  const LikelihoodOptions options{.sigma_px = 4, .inlier_prior = 0.5};
+  const LikelihoodOptions options{.sigma_px = 4, .inlier_prior = 0.5, .level_outliers = false};
   const PlanarPose beside{0, 0.3, 0};
   double sum = 0;
   const int step = 2;

@@ -74,6 +74,40 @@ TEST(PoseRefiner, CovarianceIsHonest) {
   EXPECT_LT(sum / trials, 3.6);
 }
 
+// Of exp(L) over the peak, on a grid of 0.5 standard deviations.
+TEST(PoseRefiner, EvidenceIsTheIntegralOfTheLikelihood) {
+  Random random(47);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Scene scene = randomScene(random, {.depth_rate = 1, .noise_px = 1});
+    const PoseLikelihood likelihood(scene.problem, {.sigma_px = 1, .inlier_prior = 0.9});
+    const RefinedPose refined = PoseRefiner(likelihood, {}).refine(PlanarTransform(scene.map_from_robot), 50);
+    const Eigen::Matrix3d root = refined.covariance.llt().matrixL();
+    const double step = 0.5;
+    double sum = 0;
+    for (double a = -4; a <= 4; a += step)
+      for (double b = -4; b <= 4; b += step)
+        for (double c = -4; c <= 4; c += step) {
+          const Eigen::Vector3d d = root * Eigen::Vector3d(a, b, c);
+          const PlanarPose& p = refined.map_from_robot;
+          sum += std::exp(likelihood({p.x + d.x(), p.y + d.y(), p.phi + d.z()}) - refined.log_likelihood);
+        }
+    const double integral = refined.log_likelihood + std::log(sum * std::pow(step, 3) * root.determinant());
+    EXPECT_NEAR(refined.log_evidence, integral, 0.1) << "trial " << trial;
+  }
+}
+
+// A prior so narrow that it changes nothing must not change the evidence either: it is normalized.
+TEST(PoseRefiner, EvidenceCountsThePriorOfTheSoftPlane) {
+  Random random(48);
+  const Scene scene = randomScene(random, {.noise_px = 2});
+  const PoseLikelihood likelihood(scene.problem, {});
+  const auto evidence = [&](const SoftPlane& plane) {
+    return PoseRefiner(likelihood, plane).refine(PlanarTransform(scene.map_from_robot), 50).log_evidence;
+  };
+  EXPECT_NEAR(evidence({1e-6, 1e-6}), evidence({}), 1e-2);
+  EXPECT_LT(evidence({0.1, 0.1}), evidence({0.01, 0.01}));  // a robot on the plane: width is paid for
+}
+
 // Half a degree of roll and pitch: taken up by the soft plane, not by the pose.
 TEST(PoseRefiner, SoftPlaneTakesUpTilt) {
   Random random(44);

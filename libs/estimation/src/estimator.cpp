@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/estimation/estimator.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -58,14 +57,14 @@ bool alike(const Hypothesis& a, const Hypothesis& b) {
          std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
 }
 
-/// Log odds of the pose against chance: its likelihood ratio, integrated over the peak (Laplace) with a prior that
-/// spreads over all headings and all places within sight of the references. The best of many poses fits some outliers
-/// always; this asks for more.
+/// Log odds of the pose against chance: its likelihood ratio, integrated over the peak with a prior that spreads over
+/// all headings and all places within sight of the references, when most images show a place of the map. The best of
+/// many poses fits some outliers always; this asks for more.
 double logEvidence(const RefinedPose& refined) {
   constexpr double reach = 10;  // m
+  constexpr double odds_of_a_known_place = 20;
   const double volume = std::numbers::pi * reach * reach * 2 * std::numbers::pi;
-  const double peak = 0.5 * std::log((2 * std::numbers::pi * refined.covariance).determinant());
-  return refined.objective + peak - std::log(volume);
+  return refined.log_evidence - std::log(volume) + std::log(odds_of_a_known_place);
 }
 
 std::vector<PoseMode> refineModes(const PoseLikelihood& likelihood, const EstimatorOptions& options,
@@ -78,7 +77,8 @@ std::vector<PoseMode> refineModes(const PoseLikelihood& likelihood, const Estima
     PoseMode& mode = modes.emplace_back();
     mode.robot_in_map = refined.map_from_robot;
     mode.covariance = refined.covariance;
-    mode.log_likelihood = refined.objective;
+    mode.log_likelihood = refined.log_likelihood;
+    mode.log_evidence = logEvidence(refined);
     mode.inliers = refiner.inliers(refined);
     mode.solver = hypothesis.solver;
   }
@@ -100,7 +100,9 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (hypotheses.empty()) return noPose("no sample gives a pose: too few matches with depth, or degenerate ones");
 
   const auto score = [&](std::span<const Hypothesis> all, std::span<double> scores) {
-    for (std::size_t i = 0; i < all.size(); ++i) scores[i] = likelihood(all[i].pose);
+    std::vector<PlanarTransform> poses;
+    for (const Hypothesis& hypothesis : all) poses.push_back(hypothesis.pose);
+    likelihood.evaluate(poses, scores);
   };
   estimate.modes = mergeModes(
       refineModes(likelihood, options, bestHypotheses(hypotheses, options.refined, score, alike)), options.max_modes);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "outlier_density.h"
 #include "prepared_matches.h"
 
 namespace vmcl {
@@ -23,6 +24,8 @@ PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodO
       query_cameras(problem.query_cameras),
       reference_cameras(problem.reference_cameras),
       match_count(static_cast<int>(problem.matches.size())) {
+  const std::vector<double> outlier_density =
+      options.level_outliers ? outlierDensity(problem) : std::vector<double>(problem.matches.size(), 1);
   std::map<int, PointGroup> points;
   std::map<std::pair<int, int>, RayGroup> rays;
   for (int i = 0; i < match_count; ++i) {
@@ -34,6 +37,7 @@ PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodO
       group.pixel.push_back(match.query_pixel);
       group.point_in_map.push_back(match.point->point_in_map);
       group.covariance.push_back(match.point->covariance);
+      group.outlier_density.push_back(outlier_density[static_cast<std::size_t>(i)]);
     } else {
       RayGroup& group = rays[{match.query_camera, match.reference_camera}];
       group.query = match.query_camera;
@@ -41,6 +45,7 @@ PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodO
       group.match.push_back(i);
       group.query_pixel.push_back(match.query_pixel);
       group.reference_pixel.push_back(match.reference_pixel);
+      group.outlier_density.push_back(outlier_density[static_cast<std::size_t>(i)]);
     }
   }
   for (auto& [key, group] : points) point_groups.push_back(std::move(group));

@@ -81,8 +81,8 @@ PointTerms pointTerms(const PointGroup& group, const QueryCamera& query, const L
     const PointRows<double> rows{
         ground.x(), ground.y(), overPosition(axes.row(0) - pixel.x() * axes.row(2), query, X.z()),
         overPosition(axes.row(1) - pixel.y() * axes.row(2), query, X.z()), overPosition(axes.row(2), query, X.z())};
-    result.terms.push_back(
-        {rows, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), choleskyRoot(group.covariance[i])});
+    result.terms.push_back({rows, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
+                            choleskyRoot(group.covariance[i]), static_cast<float>(1 / group.outlier_density[i])});
     // (depth / sigma)^2 |pixel by point|^2 <= steepness + 2 e2 / depth^2
     const double steepness = axes.topRows<2>().squaredNorm() + 2 * pixel.squaredNorm();
     const double variance = group.covariance[i].trace();
@@ -126,7 +126,8 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
     const RayRows<double> rows{overHeading(across, direction), overHeading(down, direction),
                                overHeading(axes.row(2), direction), overPosition(across, query, height),
                                overPosition(down, query, height)};
-    result.terms.push_back({rows, static_cast<float>(pixel_px.x()), static_cast<float>(pixel_px.y())});
+    result.terms.push_back({rows, static_cast<float>(pixel_px.x()), static_cast<float>(pixel_px.y()),
+                            static_cast<float>(1 / group.outlier_density[i])});
     // depth^2 |pixel by reference pixel|^2 <= steepness + 2 sigma^2 reference_pixel2 e2 / depth^2
     const double steepness = reference_pixel2 * (axes_px.topRows<2>().squaredNorm() + 2 * pixel_px.squaredNorm());
     result.gates.push_back({{rounded(rows.infinite_u), rounded(rows.infinite_v), rounded(rows.infinite_depth),
@@ -186,9 +187,16 @@ std::optional<LikelihoodTerms> likelihoodTerms(const PoseProblem& problem, const
   for (const Eigen::Vector2d& place : all) extent = std::max(extent, (place - result.origin).norm());
   if (!(extent < reach)) return std::nullopt;
 
+  double least_density = 1;
+  const auto addDensities = [&](const auto& groups) {
+    for (const auto& group : groups)
+      for (const double density : group.outlier_density) least_density = std::min(least_density, density);
+  };
+  addDensities(points);
+  addDensities(rays);
   double largest_factor = 1;
   for (const QueryCamera& query : problem.query_cameras)
-    largest_factor = std::max(largest_factor, 1 + peakOdds(query.camera, options));
+    largest_factor = std::max(largest_factor, 1 + peakOdds(query.camera, options) / least_density);
   result.matches_per_renormal = static_cast<int>(std::min(125 / std::log2(largest_factor), 1e6));
   if (result.matches_per_renormal < 1) return std::nullopt;
   result.outlier_sum = static_cast<double>(problem.matches.size()) * std::log(1 - options.inlier_prior);

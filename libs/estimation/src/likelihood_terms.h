@@ -48,11 +48,13 @@ struct PointTerm {
   PointRows<double> rows;
   float pixel_u, pixel_v;                ///< observed, from the principal point, in units of the pixel noise
   std::array<float, 6> covariance_root;  ///< lower triangular L by columns, L L^T = covariance of the point
+  float per_outlier_density;             ///< 1 / density of outliers here over one uniform in the image
 };
 
 struct RayTerm {
   RayRows<double> rows;
   float pixel_u_px, pixel_v_px;  ///< observed, from the principal point
+  float per_outlier_density;     ///< 1 / density of outliers here over one uniform in the image
 };
 
 /// Matches with depth seen by one query camera.

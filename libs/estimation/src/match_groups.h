@@ -13,6 +13,7 @@ struct PointGroup {
   std::vector<Eigen::Vector2d> pixel;
   std::vector<Eigen::Vector3d> point_in_map;
   std::vector<Eigen::Matrix3d> covariance;
+  std::vector<double> outlier_density;  ///< at the pixel, over one uniform in the image
 };
 
 /// Matches without depth between one query and one reference camera.
@@ -22,6 +23,7 @@ struct RayGroup {
   std::vector<int> match;
   std::vector<Eigen::Vector2d> query_pixel;
   std::vector<Eigen::Vector2d> reference_pixel;
+  std::vector<double> outlier_density;  ///< at the query pixel, over one uniform in the image
 };
 
 }  // namespace vmcl

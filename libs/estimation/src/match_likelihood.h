@@ -169,11 +169,10 @@ class RayView {
     const Eigen::Vector2d by_rho = (parallax_.head<2>() - predicted * parallax_.z()) * inverse_z;
     const double rho_variance =
         1 / (by_rho.dot(result.information * by_rho) + tiny_information);  // as this match measures it
-    result.likelihood_ratio *=
-        nearFade(h.z() - rho * min_depth) * alongSegment(rho, rho_variance, by_rho.squaredNorm());
-    // No information along the segment, but for the bearing of a point near infinity.
-    S += by_rho * by_rho.transpose() * (unknown_scale * rho * rho + rho_variance);
-    result.information = S.inverse();
+    const double described = described_share * describedDensity(rho, rho_variance);
+    const double anywhere = (1 - described_share) * anywhereDensity(rho_variance, by_rho.squaredNorm());
+    result.likelihood_ratio *= nearFade(h.z() - rho * min_depth) * (described + anywhere);
+    weigh(S, by_rho, rho, rho_variance, described / (described + anywhere), result);
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_z;
     result.arm = map_from_reference_pixel_ * reference_pixel.homogeneous() + rho * reference_from_robot_;
     result.scale = rho;
@@ -188,12 +187,26 @@ class RayView {
     return std::clamp(-u.dot(v) / (v.squaredNorm() + tiny_parallax2), 0.0, max_inverse_depth);
   }
 
-  /// Density at rho, smoothed by its measurement, over the peak of the measurement's density.
-  double alongSegment(double rho, double rho_variance, double by_rho2) const {
+  /// Densities at rho, smoothed by its measurement, over the peak of the measurement's density: of points that the
+  /// prior describes, and of points anywhere along the epipolar line.
+  double describedDensity(double rho, double rho_variance) const {
     const double spread = rho_variance + prior_.sigma * prior_.sigma, off = rho - prior_.mean;
-    const double described = std::sqrt(rho_variance / spread) * std::exp(-0.5 * off * off / spread);
-    const double anywhere = std::min(std::sqrt(2 * std::numbers::pi * rho_variance * by_rho2 / area_), 1.0);
-    return described_share * described + (1 - described_share) * anywhere;
+    return std::sqrt(rho_variance / spread) * std::exp(-0.5 * off * off / spread);
+  }
+  double anywhereDensity(double rho_variance, double by_rho2) const {
+    return std::min(std::sqrt(2 * std::numbers::pi * rho_variance * by_rho2 / area_), 1.0);
+  }
+
+  /// The one Gaussian that pulls as both do: a point that the prior describes has its error at the prior's mean, with
+  /// the prior's spread along the segment; any other says nothing there, but for the bearing of a point near infinity.
+  void weigh(const Eigen::Matrix2d& S, const Eigen::Vector2d& by_rho, double rho, double rho_variance,
+             double chance_described, MatchResidual& result) const {
+    const Eigen::Matrix2d segment = by_rho * by_rho.transpose();
+    const Eigen::Matrix2d described = chance_described * (S + prior_.sigma * prior_.sigma * segment).inverse();
+    const Eigen::Matrix2d anywhere =
+        (1 - chance_described) * (S + (unknown_scale * rho * rho + rho_variance) * segment).inverse();
+    result.information = described + anywhere;
+    result.pixel_error += result.information.inverse() * described * by_rho * (prior_.mean - rho);
   }
 
   Eigen::Matrix3d pixel_from_map_;

@@ -71,8 +71,8 @@ class PointOdds {
     const Float along2 =
         squaredNorm(negMulAdd(v, a_0, u * b_0), negMulAdd(v, a_1, u * b_1), negMulAdd(v, a_2, u * b_2));
     const Float distance2 = mulAdd(depth2, squaredNorm(u, v), along2) / determinant;
-    const Float ratio = all(group_.peak_odds) * depth2 / hn::Sqrt(determinant) * expOfNegative(all(-0.5f) * distance2) *
-                        nearFade(depth - all(static_cast<float>(min_depth)));
+    const Float ratio = all(group_.peak_odds * term.per_outlier_density) * depth2 / hn::Sqrt(determinant) *
+                        expOfNegative(all(-0.5f) * distance2) * nearFade(depth - all(static_cast<float>(min_depth)));
     return hn::IfThenElseZero(hn::And(depth > all(static_cast<float>(min_depth)), distance2 < all(group_.cutoff)),
                               ratio);
   }
@@ -166,7 +166,7 @@ class RayOdds {
     const Float error2 = distance2(u, v);
     const Float by_rho_u = negMulAdd(error_u, parallax_depth_, parallax_u);
     const Float by_rho_v = negMulAdd(error_v, parallax_depth_, parallax_v);
-    const Float peak = all(group_.peak_odds) * depth2 * hn::Sqrt(inverse_determinant);
+    const Float peak = all(group_.peak_odds * term.per_outlier_density) * depth2 * hn::Sqrt(inverse_determinant);
     const Float along = alongSegment(rho, distance2(by_rho_u, by_rho_v) + all(static_cast<float>(tiny_information)),
                                      squaredNorm(by_rho_u, by_rho_v) * inverse_depth * inverse_depth);
     const Float near_depth = rho * all(static_cast<float>(min_depth));

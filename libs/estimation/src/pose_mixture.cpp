@@ -25,24 +25,59 @@ Eigen::Vector3d difference(const PlanarPose& b, const PlanarPose& a) {
 
 namespace {
 
-bool within3Sigma(const PoseMode& mode, const PlanarPose& pose) {
-  const Eigen::Vector3d d = difference(pose, mode.robot_in_map);
-  return d.dot(mode.covariance.ldlt().solve(d)) < 9;
+/// Squared distance in standard deviations of whichever is the less certain.
+double distance2(const PoseMode& a, const PoseMode& b) {
+  const Eigen::Vector3d d = difference(b.robot_in_map, a.robot_in_map);
+  return std::min(d.dot(a.covariance.ldlt().solve(d)), d.dot(b.covariance.ldlt().solve(d)));
+}
+
+bool isSamePeak(const PoseMode& a, const PoseMode& b) { return distance2(a, b) < 0.25; }
+
+bool isSamePlace(const PoseMode& a, const PoseMode& b) {
+  const Eigen::Vector3d d = difference(b.robot_in_map, a.robot_in_map);
+  return distance2(a, b) < 9 || (d.head<2>().norm() < 0.1 && std::abs(d.z()) < 0.03);
+}
+
+/// One mode with the evidence, mean and covariance of several peaks, the heaviest first.
+PoseMode joined(const std::vector<PoseMode>& peaks) {
+  PoseMode all = peaks.front();
+  double sum = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
+  for (const PoseMode& peak : peaks) {
+    const double weight = std::exp(peak.log_evidence - all.log_evidence);
+    const Eigen::Vector3d d = difference(peak.robot_in_map, all.robot_in_map);
+    sum += weight;
+    mean += weight * d;
+    second_moment += weight * (peak.covariance + d * d.transpose());
+  }
+  mean /= sum;
+  all.covariance = second_moment / sum - mean * mean.transpose();
+  all.robot_in_map = {all.robot_in_map.x + mean.x(), all.robot_in_map.y + mean.y(),
+                      wrapAngle(all.robot_in_map.phi + mean.z())};
+  all.log_evidence += std::log(sum);
+  return all;
 }
 
 }  // namespace
 
 std::vector<PoseMode> mergeModes(std::vector<PoseMode> modes, int max_modes) {
   std::stable_sort(modes.begin(), modes.end(),
-                   [](const PoseMode& a, const PoseMode& b) { return a.log_likelihood > b.log_likelihood; });
-  std::vector<PoseMode> kept;
+                   [](const PoseMode& a, const PoseMode& b) { return a.log_evidence > b.log_evidence; });
+  std::vector<std::vector<PoseMode>> places;
   for (PoseMode& mode : modes) {
-    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const PoseMode& better) {
-      return within3Sigma(better, mode.robot_in_map) || within3Sigma(mode, better.robot_in_map);
+    const auto place = std::find_if(places.begin(), places.end(), [&](const std::vector<PoseMode>& peaks) {
+      return isSamePlace(peaks.front(), mode);
     });
-    if (seen) continue;
-    mode.log_weight = mode.log_likelihood + 0.5 * std::log(mode.covariance.determinant());
-    kept.push_back(std::move(mode));
+    if (place == places.end())
+      places.push_back({std::move(mode)});
+    else if (std::none_of(place->begin(), place->end(), [&](const PoseMode& peak) { return isSamePeak(peak, mode); }))
+      place->push_back(std::move(mode));
+  }
+  std::vector<PoseMode> kept;
+  for (const std::vector<PoseMode>& peaks : places) {
+    kept.push_back(joined(peaks));
+    kept.back().log_weight = kept.back().log_evidence;
   }
   std::stable_sort(kept.begin(), kept.end(),
                    [](const PoseMode& a, const PoseMode& b) { return a.log_weight > b.log_weight; });

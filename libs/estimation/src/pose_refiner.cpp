@@ -3,7 +3,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +16,8 @@ namespace {
 
 using Vector6 = PoseRefiner::Vector6;
 using Matrix6 = PoseRefiner::Matrix6;
+
+const double sqrt_2pi = std::sqrt(2 * std::numbers::pi);
 
 /// The axes in the map about which phi, pitch and roll turn the robot.
 struct TurnAxes {
@@ -36,6 +40,16 @@ Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   return m;
 }
 
+RefinedPose moved(RefinedPose pose, const Vector6& step) {
+  pose.map_from_robot.x += step[0];
+  pose.map_from_robot.y += step[1];
+  pose.map_from_robot.phi = wrapAngle(pose.map_from_robot.phi + step[2]);
+  pose.roll += step[3];
+  pose.pitch += step[4];
+  pose.height += step[5];
+  return pose;
+}
+
 }  // namespace
 
 void SoftPlane::check() const {
@@ -56,16 +70,16 @@ Rigid3 RefinedPose::rigid() const {
 }
 
 PoseRefiner::PoseRefiner(const PoseLikelihood& likelihood, const SoftPlane& plane)
-    : likelihood_(likelihood), plane_(plane) {
+    : likelihood_(likelihood), sigma_(plane.sigma_tilt, plane.sigma_tilt, plane.sigma_height) {
   plane.check();
 }
 
-double PoseRefiner::objective(const RefinedPose& pose) const {
-  const auto logPrior = [](double value, double sigma) {
-    return sigma > 0 ? -0.5 * value * value / (sigma * sigma) : 0;
-  };
-  return likelihood_(pose.rigid()) + logPrior(pose.roll, plane_.sigma_tilt) + logPrior(pose.pitch, plane_.sigma_tilt) +
-         logPrior(pose.height, plane_.sigma_height);
+double PoseRefiner::logPrior(const RefinedPose& pose) const {
+  const Eigen::Vector3d off(pose.roll, pose.pitch, pose.height);
+  double sum = 0;
+  for (int k = 0; k < 3; ++k)
+    if (sigma_[k] > 0) sum -= 0.5 * std::pow(off[k] / sigma_[k], 2) + std::log(sigma_[k] * sqrt_2pi);
+  return sum;
 }
 
 PoseRefiner::Linearization PoseRefiner::linearize(const RefinedPose& pose) const {
@@ -81,67 +95,84 @@ PoseRefiner::Linearization PoseRefiner::linearize(const RefinedPose& pose) const
     J.col(4) = by_turn * axes.pitch;
     J.col(5) = -r.scale * r.pixel_by_point.col(2);
     const double weight = responsibility(r.likelihood_ratio, p.options.inlier_prior);
-    sum.gradient -= weight * J.transpose() * (r.information * r.pixel_error);
+    const Vector6 gradient = -J.transpose() * (r.information * r.pixel_error);
+    sum.gradient += weight * gradient;
     sum.information += weight * J.transpose() * r.information * J;
+    sum.doubt += weight * (1 - weight) * gradient * gradient.transpose();
   });
   return sum;
 }
 
-RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations) const {
-  Vector6 prior = Vector6::Zero();  // information of roll, pitch, height
-  const bool free_tilt = plane_.sigma_tilt > 0, free_height = plane_.sigma_height > 0;
-  if (free_tilt) prior[3] = prior[4] = 1 / (plane_.sigma_tilt * plane_.sigma_tilt);
-  if (free_height) prior[5] = 1 / (plane_.sigma_height * plane_.sigma_height);
-  const auto regularize = [&](Linearization& linear, const RefinedPose& pose) {
-    for (int k = 3; k < 6; ++k) {
-      if (prior[k] > 0) continue;
-      linear.gradient[k] = 0;
-      linear.information.row(k).setZero();
-      linear.information.col(k).setZero();
-      linear.information(k, k) = 1;
+PoseRefiner::Linearization PoseRefiner::withPrior(const RefinedPose& pose) const {
+  Linearization linear = linearize(pose);
+  const Eigen::Vector3d off(pose.roll, pose.pitch, pose.height);
+  for (int k = 0; k < 3; ++k) {
+    const double precision = sigma_[k] > 0 ? 1 / (sigma_[k] * sigma_[k]) : 0;
+    if (precision > 0) {
+      linear.gradient[3 + k] -= precision * off[k];
+      linear.information(3 + k, 3 + k) += precision;
+      continue;
     }
-    linear.information.diagonal() += prior;
-    linear.gradient.tail<3>() -= prior.tail<3>().cwiseProduct(Eigen::Vector3d(pose.roll, pose.pitch, pose.height));
-  };
+    linear.gradient[3 + k] = 0;
+    for (Matrix6* matrix : {&linear.information, &linear.doubt}) {
+      matrix->row(3 + k).setZero();
+      matrix->col(3 + k).setZero();
+    }
+    linear.information(3 + k, 3 + k) = 1;  // held: of no effect on the others
+  }
+  return linear;
+}
 
+RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations) const {
+  const auto evaluate = [&](RefinedPose& pose) {
+    pose.log_likelihood = likelihood_(pose.rigid());
+    return pose.log_likelihood + logPrior(pose);
+  };
   RefinedPose best;
   best.map_from_robot = start.pose();
-  best.objective = objective(best);
-  double damping = 1e-4;
-  Linearization linear = linearize(best);
-  regularize(linear, best);
+  double objective = evaluate(best), damping = 1e-4;
+  Linearization linear = withPrior(best);
   for (int i = 0; i < max_iterations && damping < 1e6; ++i) {
     Matrix6 damped = linear.information;
     damped.diagonal() += damping * linear.information.diagonal() + Vector6::Constant(1e-12);
     const Vector6 step = damped.ldlt().solve(linear.gradient);
     if (!step.allFinite()) break;
-    RefinedPose next = best;
-    next.map_from_robot.x += step[0];
-    next.map_from_robot.y += step[1];
-    next.map_from_robot.phi = wrapAngle(next.map_from_robot.phi + step[2]);
-    next.roll += step[3];
-    next.pitch += step[4];
-    next.height += step[5];
-    next.objective = objective(next);
-    if (!(next.objective > best.objective)) {
+    RefinedPose next = moved(best, step);
+    const double gain = evaluate(next) - objective;
+    if (!(gain > 0)) {
       damping *= 10;
       continue;
     }
-    const double gain = next.objective - best.objective;
     best = next;
+    objective += gain;
     damping = std::max(damping * 0.1, 1e-9);
-    linear = linearize(best);
-    regularize(linear, best);
+    linear = withPrior(best);
     if (gain < 1e-6) break;
   }
+  setUncertainty(linear, best);
+  return best;
+}
+
+void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose) const {
   // Of the matrix scaled to a unit diagonal, so that neither units nor the amount of data count.
   const Vector6 scale = linear.information.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6 correlation = scale.asDiagonal() * linear.information * scale.asDiagonal();
-  if (!correlation.allFinite()) return best;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(correlation, Eigen::EigenvaluesOnly);
-  best.constrained = eigen.eigenvalues()[0] > 1e-9;
-  if (best.constrained) best.covariance = linear.information.inverse().topLeftCorner<3, 3>();
-  return best;
+  if (!correlation.allFinite()) return;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(correlation);
+  pose.constrained = eigen.eigenvalues()[0] > 1e-9;
+  if (!pose.constrained) return;
+  // Less the doubt, in axes in which the information is the unit matrix.
+  const Matrix6 whiten =
+      scale.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> doubt(whiten.transpose() * linear.doubt * whiten);
+  constexpr double least_left = 0.2;  // of the information in any direction: the Gaussian need not be flat
+  const Vector6 left = (1 - doubt.eigenvalues().array()).cwiseMax(least_left);
+  const Matrix6 axes = whiten * doubt.eigenvectors();
+  const Matrix6 covariance = axes * left.cwiseInverse().asDiagonal() * axes.transpose();
+  pose.covariance = covariance.topLeftCorner<3, 3>();
+  const auto freedom = 3 + static_cast<double>((sigma_.array() > 0).count());
+  const double log_determinant = 2 * std::log(std::abs(whiten.determinant())) - left.array().log().sum();
+  pose.log_evidence = pose.log_likelihood + logPrior(pose) + freedom * std::log(sqrt_2pi) + 0.5 * log_determinant;
 }
 
 std::vector<int> PoseRefiner::inliers(const RefinedPose& pose) const {

@@ -33,6 +33,7 @@ struct PoseLikelihood::Prepared {
       const PointView view(query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options);
       for (std::size_t i = 0; i < group.pixel.size(); ++i) {
         view.evaluate(group.pixel[i], group.point_in_map[i], group.covariance[i], residual);
+        residual.likelihood_ratio /= group.outlier_density[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }
@@ -42,6 +43,7 @@ struct PoseLikelihood::Prepared {
                          inverse_depth_prior);
       for (std::size_t i = 0; i < group.query_pixel.size(); ++i) {
         view.evaluate(group.query_pixel[i], group.reference_pixel[i], residual);
+        residual.likelihood_ratio /= group.outlier_density[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }

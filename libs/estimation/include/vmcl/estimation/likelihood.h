@@ -12,13 +12,15 @@ namespace vmcl {
 struct LikelihoodOptions {
   double sigma_px = 2;        ///< standard deviation of a pixel coordinate, in either image
   double inlier_prior = 0.3;  ///< chance that a match is an inlier, in (0, 1)
+  /// Whether outliers may keep their elevation, as in a level world; how many do is estimated. Else they are uniform.
+  bool level_outliers = true;
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
 };
 
 /// How well a robot pose explains what the cameras saw: the log likelihood ratio of "this pose and noise" against
-/// "outliers anywhere",
+/// "outliers",
 ///
 ///     L(pose) = sum over matches of log(1 - e + e p(residual at pose) / u).
 ///

@@ -15,11 +15,12 @@ enum class Solver { automatic, one_point_one_depth, two_depth };
 /// "auto", "1p1dp" or "2dp".
 std::string_view nameOf(Solver solver);
 
-/// One local maximum of the likelihood.
+/// A place where the robot may be: one peak of the likelihood, or several close together.
 struct PoseMode {
   PlanarPose robot_in_map;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi), map frame: m, m, rad
-  double log_likelihood = 0;                             ///< L at the mode
+  double log_likelihood = 0;                             ///< L at the heaviest peak
+  double log_evidence = 0;                               ///< log odds that the robot is here against chance
   double log_weight = 0;                                 ///< log of its share of the mixture, <= 0
   std::vector<int> inliers;                              ///< matches more likely inlier than outlier, by index
   Solver solver = Solver::automatic;                     ///< kind of the sample that led here
@@ -28,9 +29,8 @@ struct PoseMode {
 /// (x, y, phi) of b minus a, the angle wrapped.
 Eigen::Vector3d difference(const PlanarPose& b, const PlanarPose& a);
 
-/// Keeps each mode once (two are the same when one lies within 3 sigma of the other, whichever is the more certain),
-/// weighs each by its Laplace evidence, L + log sqrt(det(2 pi covariance)), sorts by weight, keeps the first
-/// `max_modes` and normalizes.
+/// Joins modes of one place, within 3 sigma or 0.1 m and 1.7 deg of each other, into one with the moments of their
+/// mixture, each peak (0.5 sigma) counted once; keeps the `max_modes` of most evidence and normalizes their weights.
 std::vector<PoseMode> mergeModes(std::vector<PoseMode> modes, int max_modes);
 
 }  // namespace vmcl

@@ -20,10 +20,12 @@ struct SoftPlane {
 /// A local maximum of the likelihood (times the soft plane's prior).
 struct RefinedPose {
   PlanarPose map_from_robot;
-  double roll = 0, pitch = 0, height = 0;                ///< R = Rz(phi) Ry(pitch) Rx(roll)
-  double objective = 0;                                  ///< L plus the log prior of roll, pitch and height
+  double roll = 0, pitch = 0, height = 0;  ///< R = Rz(phi) Ry(pitch) Rx(roll)
+  double log_likelihood = 0;               ///< L
+  /// Log of the integral of exp(L) times the normalized prior over the peak, all free parameters (Laplace): m^2 rad.
+  double log_evidence = 0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi), the others marginalized
-  bool constrained = false;  ///< whether the matches fix all of x, y and phi; else the covariance means nothing
+  bool constrained = false;  ///< whether the matches fix all of x, y and phi; else covariance and evidence mean nothing
 
   Rigid3 rigid() const;
 };
@@ -45,6 +47,7 @@ class PoseRefiner {
   struct Linearization {
     Vector6 gradient = Vector6::Zero();
     Matrix6 information = Matrix6::Zero();
+    Matrix6 doubt = Matrix6::Zero();  ///< information lost because it is not sure which matches are inliers
   };
   Linearization linearize(const RefinedPose& pose) const;
 
@@ -52,10 +55,12 @@ class PoseRefiner {
   std::vector<int> inliers(const RefinedPose& pose) const;
 
  private:
-  double objective(const RefinedPose& pose) const;
+  double logPrior(const RefinedPose& pose) const;
+  Linearization withPrior(const RefinedPose& pose) const;
+  void setUncertainty(const Linearization& linear, RefinedPose& pose) const;
 
   const PoseLikelihood& likelihood_;
-  SoftPlane plane_;
+  Eigen::Vector3d sigma_;  ///< of roll, pitch and height; 0: held
 };
 
 }  // namespace vmcl

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "outlier_density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vmcl {
+namespace {
+
+/// Elevation of a ray on a scale that is linear near the horizon, where pixel noise counts, and logarithmic beyond.
+double elevation(const Eigen::Vector3d& direction) {
+  constexpr double horizon = 0.01;
+  return std::asinh(direction.z() / (horizon * direction.head<2>().norm()));
+}
+
+/// A match as its elevation in the query image, less that in the reference image.
+struct ElevationChange {
+  double change = 0;
+  double per_image = 0;  ///< change over the height of the query image at the rate that it has at this pixel
+};
+
+ElevationChange elevationChange(const PoseProblem& problem, const Match& match) {
+  const QueryCamera& query = problem.query_cameras[static_cast<std::size_t>(match.query_camera)];
+  const ReferenceCamera& reference = problem.reference_cameras[static_cast<std::size_t>(match.reference_camera)];
+  const auto at = [&](const Eigen::Vector2d& pixel) {
+    return elevation(query.robot_from_camera.linear() * query.camera.ray(pixel));
+  };
+  const double here = at(match.query_pixel);
+  const double rate = std::hypot(at(match.query_pixel + Eigen::Vector2d::UnitX()) - here,
+                                 at(match.query_pixel + Eigen::Vector2d::UnitY()) - here);
+  return {here - elevation(reference.map_from_camera.linear() * reference.camera.ray(match.reference_pixel)),
+          rate * query.camera.height};
+}
+
+}  // namespace
+
+std::vector<double> outlierDensity(const PoseProblem& problem) {
+  constexpr double max_share = 0.9;     // some outliers lie anywhere
+  constexpr double pseudo_matches = 4;  // that stand for share and spread before any match is seen
+  std::vector<ElevationChange> changes;
+  for (const Match& match : problem.matches) changes.push_back(elevationChange(problem, match));
+  double share = 0.5, spread = 0.7;
+  std::vector<double> density(changes.size(), 1);
+  const auto level = [&](const ElevationChange& c) {
+    const double z = c.change / spread;
+    return std::exp(-0.5 * z * z) / (spread * std::sqrt(2 * std::numbers::pi)) * c.per_image;
+  };
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    double count = pseudo_matches * 0.5, sum_of_squares = count * 0.7 * 0.7;
+    for (const ElevationChange& c : changes) {
+      const double of_level = share * level(c), responsibility = of_level / (of_level + 1 - share);
+      count += responsibility;
+      sum_of_squares += responsibility * c.change * c.change;
+    }
+    share = std::min(max_share, count / (pseudo_matches + static_cast<double>(changes.size())));
+    spread = std::sqrt(sum_of_squares / count);
+  }
+  std::transform(changes.begin(), changes.end(), density.begin(),
+                 [&](const ElevationChange& c) { return share * level(c) + 1 - share; });
+  return density;
+}
+
+}  // namespace vmcl
