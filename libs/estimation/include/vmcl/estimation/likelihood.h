@@ -20,16 +20,16 @@ struct LikelihoodOptions {
 };
 
 /// How well a robot pose explains what the cameras saw: the log likelihood ratio of "this pose and noise" against
-/// "outliers",
+/// "all are outliers",
 ///
 ///     L(pose) = sum over matches of log(1 - e + e p(residual at pose) / u).
 ///
 /// The one score of sampling, refinement, mode weights and particles.
 /// - 2D-3D: p is the 2-D Gaussian of the reprojection residual, its covariance the pixel noise plus the point's own
-///   covariance carried into the image at that pose, zero behind the camera; u is one over the image area.
+///   covariance carried into the image at that pose, zero behind the camera.
 /// - 2D-2D: the point lies somewhere on the reference ray, its inverse depth distributed as that of the matches with
-///   depth, or anywhere, and marginalized out; p is a Gaussian across the epipolar segment and spread along it. u is
-///   one over the image area.
+///   depth, or anywhere, and marginalized out; p is a Gaussian across the epipolar segment and spread along it.
+/// u is the density of outliers at the query pixel: uniform over the image, or level, as far as the matches show it.
 /// A pose that explains nothing scores (number of matches) * log(1 - e).
 class PoseLikelihood {
  public:
