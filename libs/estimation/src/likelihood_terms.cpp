@@ -69,11 +69,11 @@ PointTerms pointTerms(const PointGroup& group, const QueryCamera& query, const L
   result.image_x = axes.row(0).cast<float>();
   result.image_y = axes.row(1).cast<float>();
   result.forward = axes.row(2).cast<float>();
-  result.peak_odds = static_cast<float>(peakOdds(query.camera, options));
-  const double cutoff = cutoffDistance2(query.camera, options);
+  const double peak = peakOdds(query.camera, options), cutoff = cutoffDistance2(query.camera, options);
   result.cutoff = static_cast<float>(cutoff);
   result.gate_cutoff = static_cast<float>(gate_room * cutoff);
   const double slack = roundingSlack(query, options.sigma_px, extent);
+  const double focal2 = axes.topRows<2>().rowwise().squaredNorm().maxCoeff();
   for (std::size_t i = 0; i < group.match.size(); ++i) {
     const Eigen::Vector3d& X = group.point_in_map[i];
     const Eigen::Vector2d pixel = fromPrincipalPoint(query.camera, group.pixel[i]) / options.sigma_px;
@@ -82,13 +82,14 @@ PointTerms pointTerms(const PointGroup& group, const QueryCamera& query, const L
         ground.x(), ground.y(), overPosition(axes.row(0) - pixel.x() * axes.row(2), query, X.z()),
         overPosition(axes.row(1) - pixel.y() * axes.row(2), query, X.z()), overPosition(axes.row(2), query, X.z())};
     result.terms.push_back({rows, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
-                            choleskyRoot(group.covariance[i]), static_cast<float>(1 / group.outlier_density[i])});
-    // (depth / sigma)^2 |pixel by point|^2 <= steepness + 2 e2 / depth^2
-    const double steepness = axes.topRows<2>().squaredNorm() + 2 * pixel.squaredNorm();
-    const double variance = group.covariance[i].trace();
+                            choleskyRoot(group.covariance[i]), static_cast<float>(peak / group.outlier_density[i])});
+    // Squared norm of the derivative of the pixel by the point, times depth^2: focal^2 + |p|^2 with the predicted pixel
+    // p from the principal point, and |p|^2 <= 1.5 |observed|^2 + 3 e2 / depth^2.
+    const double steepness = focal2 + 1.5 * pixel.squaredNorm();
+    const double variance = group.covariance[i].cwiseAbs().rowwise().sum().maxCoeff();
     result.gates.push_back({{static_cast<float>(rows.x), static_cast<float>(rows.y), rounded(rows.u), rounded(rows.v),
                              rounded(rows.depth)},
-                            static_cast<float>(2 * gate_room * cutoff * variance),
+                            static_cast<float>(3 * gate_room * cutoff * variance),
                             static_cast<float>(steepness * variance + slack)});
   }
   return result;
@@ -108,8 +109,7 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
     for (int k = 0; k < 2; ++k)
       result.homography[std::size_t(i)][std::size_t(k)] = rounded(overHeading(axes_px.row(i), map_from_pixel.col(k)));
   result.sigma_px = static_cast<float>(sigma);
-  result.peak_odds = static_cast<float>(peakOdds(query.camera, options));
-  const double cutoff = cutoffDistance2(query.camera, options);
+  const double peak = peakOdds(query.camera, options), cutoff = cutoffDistance2(query.camera, options);
   result.cutoff = static_cast<float>(cutoff);
   result.gate_cutoff = static_cast<float>(gate_room * cutoff);
   result.prior_mean = static_cast<float>(prior.mean);
@@ -118,7 +118,8 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
   result.segment_scale =
       static_cast<float>(2 * std::numbers::pi * sigma * sigma / (double(query.camera.width) * query.camera.height));
   const double slack = roundingSlack(query, sigma, 1 + max_inverse_depth * extent);
-  const double reference_pixel2 = map_from_pixel.leftCols<2>().colwise().squaredNorm().maxCoeff();
+  const double by_reference2 = map_from_pixel.leftCols<2>().colwise().squaredNorm().maxCoeff();
+  const double focal2_px = axes_px.topRows<2>().rowwise().squaredNorm().maxCoeff();
   for (std::size_t i = 0; i < group.match.size(); ++i) {
     const Eigen::Vector3d direction = map_from_pixel * group.reference_pixel[i].homogeneous();
     const Eigen::Vector2d pixel_px = fromPrincipalPoint(query.camera, group.query_pixel[i]), pixel = pixel_px / sigma;
@@ -127,12 +128,11 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
                                overHeading(axes.row(2), direction), overPosition(across, query, height),
                                overPosition(down, query, height)};
     result.terms.push_back({rows, static_cast<float>(pixel_px.x()), static_cast<float>(pixel_px.y()),
-                            static_cast<float>(1 / group.outlier_density[i])});
-    // depth^2 |pixel by reference pixel|^2 <= steepness + 2 sigma^2 reference_pixel2 e2 / depth^2
-    const double steepness = reference_pixel2 * (axes_px.topRows<2>().squaredNorm() + 2 * pixel_px.squaredNorm());
+                            static_cast<float>(peak / group.outlier_density[i])});
+    const double steepness = by_reference2 * (focal2_px + 1.5 * pixel_px.squaredNorm());  // as for points
     result.gates.push_back({{rounded(rows.infinite_u), rounded(rows.infinite_v), rounded(rows.infinite_depth),
                              rounded(rows.parallax_u), rounded(rows.parallax_v)},
-                            static_cast<float>(2 * gate_room * cutoff * sigma * sigma * reference_pixel2),
+                            static_cast<float>(3 * gate_room * cutoff * sigma * sigma * by_reference2),
                             static_cast<float>(steepness + slack)});
   }
   return result;

@@ -48,19 +48,18 @@ struct PointTerm {
   PointRows<double> rows;
   float pixel_u, pixel_v;                ///< observed, from the principal point, in units of the pixel noise
   std::array<float, 6> covariance_root;  ///< lower triangular L by columns, L L^T = covariance of the point
-  float per_outlier_density;             ///< 1 / density of outliers here over one uniform in the image
+  float peak_odds;  ///< of an inlier without residual, nor covariance of the point
 };
 
 struct RayTerm {
   RayRows<double> rows;
   float pixel_u_px, pixel_v_px;  ///< observed, from the principal point
-  float per_outlier_density;     ///< 1 / density of outliers here over one uniform in the image
+  float peak_odds;  ///< of an inlier without residual, nor covariance of the point
 };
 
 /// Matches with depth seen by one query camera.
 struct PointTerms {
   Eigen::Vector3f image_x, image_y, forward;  ///< camera axes in the robot frame; the first two times focal / sigma
-  float peak_odds;                            ///< odds of an inlier without residual and covariance
   float cutoff;                               ///< squared normalized residuals beyond it add nothing
   float gate_cutoff;                          ///< the same with room for rounding
   std::vector<MatchGate<PointRows<float>>> gates;
@@ -73,7 +72,6 @@ struct RayTerms {
   PlaneRow<double> parallax_depth;                           ///< over the reference's position in the robot frame
   std::array<std::array<PlaneRow<float>, 2>, 3> homography;  ///< at infinity, over (cos phi, sin phi), two columns
   float sigma_px;
-  float peak_odds;
   float cutoff, gate_cutoff;
   float prior_mean, prior_variance;  ///< of the inverse depth
   float tiny_parallax2;              ///< keeps the inverse depth defined where there is no baseline

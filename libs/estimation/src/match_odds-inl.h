@@ -20,8 +20,9 @@ struct Poses {
   PoseLanes<Float> coarse;
 };
 
+/// For points in front of the camera.
 HWY_INLINE Float nearFade(Float excess_depth) {
-  const Float visible = hn::Min(hn::Max(excess_depth * all(static_cast<float>(1 / min_depth)), all(0.0f)), all(1.0f));
+  const Float visible = hn::Min(excess_depth * all(static_cast<float>(1 / min_depth)), all(1.0f));
   return visible * visible;
 }
 
@@ -71,8 +72,8 @@ class PointOdds {
     const Float along2 =
         squaredNorm(negMulAdd(v, a_0, u * b_0), negMulAdd(v, a_1, u * b_1), negMulAdd(v, a_2, u * b_2));
     const Float distance2 = mulAdd(depth2, squaredNorm(u, v), along2) / determinant;
-    const Float ratio = all(group_.peak_odds * term.per_outlier_density) * depth2 / hn::Sqrt(determinant) *
-                        expOfNegative(all(-0.5f) * distance2) * nearFade(depth - all(static_cast<float>(min_depth)));
+    const Float ratio = all(term.peak_odds) * depth2 / hn::Sqrt(determinant) * gaussian(distance2) *
+                        nearFade(depth - all(static_cast<float>(min_depth)));
     return hn::IfThenElseZero(hn::And(depth > all(static_cast<float>(min_depth)), distance2 < all(group_.cutoff)),
                               ratio);
   }
@@ -166,11 +167,11 @@ class RayOdds {
     const Float error2 = distance2(u, v);
     const Float by_rho_u = negMulAdd(error_u, parallax_depth_, parallax_u);
     const Float by_rho_v = negMulAdd(error_v, parallax_depth_, parallax_v);
-    const Float peak = all(group_.peak_odds * term.per_outlier_density) * depth2 * hn::Sqrt(inverse_determinant);
+    const Float peak = all(term.peak_odds) * depth2 * hn::Sqrt(inverse_determinant);
     const Float along = alongSegment(rho, distance2(by_rho_u, by_rho_v) + all(static_cast<float>(tiny_information)),
                                      squaredNorm(by_rho_u, by_rho_v) * inverse_depth * inverse_depth);
     const Float near_depth = rho * all(static_cast<float>(min_depth));
-    const Float ratio = peak * expOfNegative(all(-0.5f) * error2) * along * nearFade(depth - near_depth);
+    const Float ratio = peak * gaussian(error2) * along * nearFade(depth - near_depth);
     const Mask in_front = depth > hn::Max(near_depth, all(static_cast<float>(min_ray_depth)));
     return hn::IfThenElseZero(hn::And(in_front, error2 < all(group_.cutoff)), ratio);
   }
@@ -191,7 +192,7 @@ class RayOdds {
   HWY_INLINE Float alongSegment(Float rho, Float information, Float by_rho2) const {
     const Float narrowing = all(1.0f) / mulAdd(all(group_.prior_variance), information, all(1.0f));
     const Float off = rho - all(group_.prior_mean);
-    const Float described = hn::Sqrt(narrowing) * expOfNegative(all(-0.5f) * off * off * information * narrowing);
+    const Float described = hn::Sqrt(narrowing) * gaussian(off * off * information * narrowing);
     const Float anywhere = hn::Min(hn::Sqrt(all(group_.segment_scale) * by_rho2 / information), all(1.0f));
     constexpr auto share = static_cast<float>(described_share);
     return mulAdd(all(share), described, all(1 - share) * anywhere);

@@ -80,12 +80,13 @@ HWY_INLINE Lanes apply(const PlaneRow<T>& row, const Lanes& x, const Lanes& y) {
 HWY_INLINE Float squaredNorm(Float x, Float y) { return mulAdd(x, x, y * y); }
 HWY_INLINE Float squaredNorm(Float x, Float y, Float z) { return mulAdd(x, x, mulAdd(y, y, z * z)); }
 
-/// e^x for x <= 0, to 2e-7; no less than e^-86.
-HWY_INLINE Float expOfNegative(Float x) {
+/// exp(-distance2 / 2) to 2e-7, for distance2 >= 0; no less than e^-86.
+HWY_INLINE Float gaussian(Float distance2) {
   constexpr float log2_e = 1.44269504f;
-  const Float y = hn::Max(x * all(log2_e), all(-125.0f));
-  const Int whole = hn::NearestInt(y);
-  const Float f = y - hn::ConvertTo(FloatTag(), whole);
+  const Float y = hn::Max(distance2 * all(-0.5f * log2_e), all(-125.0f));
+  // Rounds to a whole number, which comes to stand in the last bits.
+  const Float shift = all(12582912.0f), shifted = y + shift, f = y - (shifted - shift);
+  const Int whole = hn::BitCast(IntTag(), shifted);
   // Minimax polynomial of 2^f on [-0.5, 0.5]; its relative error is 7.5e-8.
   Float power = mulAdd(all(1.327647198e-3f), f, all(9.675541334e-3f));
   power = mulAdd(power, f, all(5.550713274e-2f));
