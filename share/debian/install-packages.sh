@@ -12,7 +12,7 @@ packages=(
   gnuplot-nox
   libopengv-dev # peers of vmcl bench
   # the rest serves the tests and the demo
-  libgtest-dev libgmock-dev python3
+  libgtest-dev libgmock-dev libbenchmark-dev python3
   mrpt-apps mrpt-common # the stock pf-localization and its laser demo
 )
 

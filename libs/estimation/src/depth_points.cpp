@@ -1,108 +1,135 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/estimation/depth_points.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vmcl {
 namespace {
 
-/// Normal equations of the rows a v + b t = d over v = (cos, sin) and t = -R^T t.
-struct NormalEquations {
-  Eigen::Matrix2d vv = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d vt = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d tt = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d vd = Eigen::Vector2d::Zero();
-  Eigen::Vector2d td = Eigen::Vector2d::Zero();
+struct Vector {
+  double x = 0, y = 0;
+};
+inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
+inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
+inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y}; }
+inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
 
-  void add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double d, double weight) {
-    vv += weight * a * a.transpose();
-    vt += weight * a * b.transpose();
-    tt += weight * b * b.transpose();
-    vd += weight * d * a;
-    td += weight * d * b;
+struct SymmetricMatrix {
+  double xx = 0, xy = 0, yy = 0;
+};
+inline Vector operator*(const SymmetricMatrix& A, Vector v) {
+  return {A.xx * v.x + A.xy * v.y, A.xy * v.x + A.yy * v.y};
+}
+
+/// The two equations of a match, divided by its range, as a quadratic form over the point y in the robot frame,
+/// y^T N y - 2 g^T y: the sum of (n . (y - o) - d)^2 over the bearing, n = (-f_y, f_x) / |f_h|, and the height,
+/// n = f_v f_h / (|f_h| |f|).
+///
+/// The inverse range is known from the height, f_v / |f| = height / range, to some angle; of points at the height of
+/// the camera it is only known that they are in the room.
+struct Constraint {
+  SymmetricMatrix N;
+  Vector g;
+
+  explicit Constraint(const RayToPoint& match) {
+    constexpr double usual = 0.25, spread = 0.2, angle = 0.003;  // 1/m, 1/m, rad
+    constexpr double prior = (angle / spread) * (angle / spread), vague = prior * usual * prior * usual;
+    const Eigen::Vector3d& o = match.ray_in_robot.origin;
+    const Eigen::Vector3d& f = match.ray_in_robot.direction;
+    const double vertical2 = f.z() * f.z(), horizontal2 = f.x() * f.x() + f.y() * f.y();
+    const double length2 = horizontal2 + vertical2;
+    if (!(horizontal2 > 1e-18 * length2)) return;  // straight up or down: no heading in it
+    const double height = match.point_in_map.z() - o.z(), height2 = height * height;
+    const double information2 = (height2 + prior) * (height2 + prior);
+    const double divisor = 1 / (length2 * horizontal2 * information2),
+                 per_length2 = divisor * horizontal2 * information2;
+    const double across = (vertical2 * height2 + vague * length2) * divisor;  // over |f_h|^2 and range^2
+    const double along = vertical2 * per_length2 * across, lift = f.z() * height * horizontal2 * per_length2 * across;
+    N = {across * f.y() * f.y() + along * f.x() * f.x(), (along - across) * f.x() * f.y(),
+         across * f.x() * f.x() + along * f.y() * f.y()};
+    g = N * Vector{o.x(), o.y()} + lift * Vector{f.x(), f.y()};
   }
 };
 
-/// The unit v that minimizes v^T Q v - 2 p^T v: (Q + mu I) v = p with the largest mu that gives |v| = 1.
-std::optional<Eigen::Vector2d> minimizeOnCircle(const Eigen::Matrix2d& Q, const Eigen::Vector2d& p) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
-  eigen.computeDirect(Q);
-  const Eigen::Vector2d q = eigen.eigenvectors().transpose() * p;
-  const double gap = eigen.eigenvalues()[1] - eigen.eigenvalues()[0];
-  const double norm = q.norm();
-  if (!(norm > 0) || !std::isfinite(norm)) return std::nullopt;
-  // With nu = mu + smallest eigenvalue: (q0 / nu)^2 + (q1 / (nu + gap))^2 = 1, decreasing and convex for nu > 0.
-  double nu = std::max(std::abs(q[0]), norm - gap);
-  if (!(nu > 0)) {  // q0 = 0: the minimum is along the first eigenvector's side
-    const double y = std::clamp(q[1] / gap, -1.0, 1.0);
-    return eigen.eigenvectors() * Eigen::Vector2d(std::sqrt(1 - y * y), y);
-  }
+/// The unit v that minimizes v^T Q v - 2 p^T v: (Q + mu I) v = p with the largest mu that gives |v| = 1. Over the
+/// eigenvectors of Q, of eigenvalues gap apart, and with nu = mu + the smaller one, that is the secular equation
+/// (p_0 / nu)^2 + (p_1 / (nu + gap))^2 = 1; the left side's inverse root is nearly linear in nu. Nothing where v is
+/// ambiguous.
+inline std::optional<Vector> minimizeOnCircle(const SymmetricMatrix& Q, Vector p) {
+  const double a = 0.5 * (Q.xx - Q.yy), b = Q.xy, r2 = a * a + b * b, gap = 2 * std::sqrt(r2);
+  const Vector Qp{a * p.x + b * p.y, b * p.x - a * p.y};  // less Q's mean eigenvalue
+  const double p2 = dot(p, p), skew = 0.5 * gap * (dot(p, Qp) / (r2 + 1e-300));
+  const double p2_0 = std::max(0.5 * (p2 - skew), 0.0), p2_1 = std::max(0.5 * (p2 + skew), 0.0);
+  double nu = std::max(std::sqrt(p2_0), std::sqrt(p2) - gap);  // from below: comes up monotonically
   for (int i = 0; i < 20; ++i) {
-    const double u0 = q[0] / nu, u1 = q[1] / (nu + gap);
-    const double length = std::hypot(u0, u1);
-    const double slope = (u0 * u0 / nu + u1 * u1 / (nu + gap)) / length;
-    const double step = (length - 1) * length / slope;  // Newton on 1 / length, nearly linear in nu
+    const double other = nu + gap, a2 = p2_0 * other * other, b2 = p2_1 * nu * nu, sum = a2 + b2;
+    const double step = (std::sqrt(sum) - nu * other) * (sum / (a2 * other + b2 * nu));
     nu += step;
-    if (std::abs(step) < 1e-14 * nu) break;
+    if (!(step > 1e-4 * nu)) break;  // converges quadratically: this one was exact
   }
-  const Eigen::Vector2d v = eigen.eigenvectors() * Eigen::Vector2d(q[0] / nu, q[1] / (nu + gap));
-  return v.allFinite() && v.squaredNorm() > 0 ? std::optional<Eigen::Vector2d>(v.normalized()) : std::nullopt;
+  const Vector v = (nu + 0.5 * gap) * p - Qp;
+  const double length = std::sqrt(dot(v, v));
+  if (!(length > 1e-9 * (nu + gap) * std::sqrt(p2)) || !std::isfinite(length)) return std::nullopt;
+  return (1 / length) * v;
 }
 
-/// One weighted solve; `previous` supplies the ranges, none at first.
-std::optional<PlanarTransform> solveOnce(std::span<const RayToPoint> matches, const PlanarTransform* previous) {
-  NormalEquations normal;
-  for (const RayToPoint& match : matches) {
-    const Eigen::Vector3d& o = match.ray_in_robot.origin;
-    const Eigen::Vector3d f = match.ray_in_robot.direction.normalized();
-    const Eigen::Vector3d& X = match.point_in_map;
-    const double fh = f.head<2>().norm();
-    if (!(fh > 1e-9)) continue;  // straight up or down: no heading in it
-    const Eigen::Vector2d along = f.head<2>() / fh, across(-along.y(), along.x());
-    double weight = 1;
-    if (previous) {
-      const double dx = X.x() - previous->x, dy = X.y() - previous->y;
-      const Eigen::Vector3d Y(previous->c * dx + previous->s * dy, -previous->s * dx + previous->c * dy, X.z());
-      weight = 1 / std::max((Y - o).squaredNorm(), 1e-6);
-    }
-    // n . Y_h with Y_h = (cX + sY, -sX + cY) + t, for a horizontal direction n.
-    const auto row = [&](const Eigen::Vector2d& n) {
-      return Eigen::Vector2d(n.x() * X.x() + n.y() * X.y(), n.x() * X.y() - n.y() * X.x());
-    };
-    normal.add(row(across), across, across.dot(o.head<2>()), weight);
-    normal.add(f.z() * row(along), f.z() * along, f.z() * along.dot(o.head<2>()) + fh * (X.z() - o.z()), weight);
-  }
-  const double determinant = normal.tt.determinant();
-  if (!(determinant > 1e-18 * normal.tt.squaredNorm())) return std::nullopt;
-  const Eigen::Matrix2d tt_inverse = normal.tt.inverse();
-  const Eigen::Matrix2d elimination = normal.vt * tt_inverse;
-  const Eigen::Matrix2d Q = normal.vv - elimination * normal.vt.transpose();
-  if (!(Q.trace() > 1e-12 * normal.vv.trace())) return std::nullopt;  // the points coincide
-  const auto v = minimizeOnCircle(Q, normal.vd - elimination * normal.td);
-  if (!v) return std::nullopt;
-  const Eigen::Vector2d t = tt_inverse * (normal.td - normal.vt.transpose() * *v);
-  const double c = v->x(), s = v->y();
-  return PlanarTransform{c, s, -(c * t.x() - s * t.y()), -(s * t.x() + c * t.y())};
-}
+/// Normal equations over v = (cos phi, sin phi) and y, the first point in the robot frame: with X from the first point,
+/// the others are y + M(X) v, M(X) = (X_x X_y; X_y -X_x).
+struct NormalEquations {
+  SymmetricMatrix vv, yy;
+  Vector vy_0, vy_1;  // rows
+  Vector v, y;
 
-bool allInFront(std::span<const RayToPoint> matches, const PlanarTransform& pose) {
-  return std::all_of(matches.begin(), matches.end(), [&](const RayToPoint& match) {
-    const double dx = match.point_in_map.x() - pose.x, dy = match.point_in_map.y() - pose.y;
-    const Eigen::Vector3d Y(pose.c * dx + pose.s * dy, -pose.s * dx + pose.c * dy, match.point_in_map.z());
-    return (Y - match.ray_in_robot.origin).dot(match.ray_in_robot.direction) > 0;
-  });
-}
+  void add(const Constraint& constraint, Vector X) {
+    const auto& [N, g] = constraint;
+    const Vector first = N * X, second = N * Vector{X.y, -X.x};
+    vv = {vv.xx + X.x * first.x + X.y * first.y, vv.xy + X.x * second.x + X.y * second.y,
+          vv.yy + X.y * second.x - X.x * second.y};
+    vy_0 = vy_0 + first;
+    vy_1 = vy_1 + second;
+    yy = {yy.xx + N.xx, yy.xy + N.xy, yy.yy + N.yy};
+    v = v + Vector{dot(X, g), X.y * g.x - X.x * g.y};
+    y = y + g;
+  }
+
+  /// The best v and y; nothing when points coincide.
+  std::optional<std::pair<Vector, Vector>> solve() const {
+    const double determinant = yy.xx * yy.yy - yy.xy * yy.xy, trace = yy.xx + yy.yy;
+    if (!(determinant > 1e-18 * trace * trace)) return std::nullopt;
+    // y = yy^-1 (...) put in and all multiplied by the determinant, which moves no minimum.
+    const SymmetricMatrix adjugate{yy.yy, -yy.xy, yy.xx};
+    const Vector row_0 = adjugate * vy_0, row_1 = adjugate * vy_1;
+    const SymmetricMatrix Q{determinant * vv.xx - dot(row_0, vy_0), determinant * vv.xy - dot(row_0, vy_1),
+                            determinant * vv.yy - dot(row_1, vy_1)};
+    if (!(Q.xx + Q.yy > 1e-12 * determinant * (vv.xx + vv.yy))) return std::nullopt;
+    const auto turn = minimizeOnCircle(Q, determinant * v - Vector{dot(row_0, y), dot(row_1, y)});
+    if (!turn) return std::nullopt;
+    return std::pair{*turn, (1 / determinant) * (adjugate * y - (turn->x * row_0 + turn->y * row_1))};
+  }
+};
 
 }  // namespace
 
 std::optional<PlanarTransform> solveDepthPoints(std::span<const RayToPoint> matches) {
   if (matches.size() < 2) return std::nullopt;
-  auto pose = solveOnce(matches, nullptr);
-  if (pose) pose = solveOnce(matches, &*pose);
-  if (!pose || !allInFront(matches, *pose)) return std::nullopt;
-  return pose;
+  const Eigen::Vector3d& place = matches.front().point_in_map;
+  const auto fromPlace = [&](const RayToPoint& match) {
+    return Vector{match.point_in_map.x() - place.x(), match.point_in_map.y() - place.y()};
+  };
+  NormalEquations normal;
+  for (const RayToPoint& match : matches) normal.add(Constraint(match), fromPlace(match));
+  const auto solution = normal.solve();
+  if (!solution) return std::nullopt;
+  const auto& [v, y] = *solution;
+  for (const RayToPoint& match : matches) {
+    const auto& [o, f] = match.ray_in_robot;
+    const Vector X = fromPlace(match);
+    const double x_from_ray = y.x + dot(X, v) - o.x(), y_from_ray = y.y + X.y * v.x - X.x * v.y - o.y();
+    if (!(x_from_ray * f.x() + y_from_ray * f.y() + (match.point_in_map.z() - o.z()) * f.z() > 0)) return std::nullopt;
+  }
+  return PlanarTransform{v.x, v.y, place.x() - dot(v, {y.x, -y.y}), place.y() - (v.y * y.x + v.x * y.y)};
 }
 
 }  // namespace vmcl
