@@ -123,12 +123,14 @@ std::optional<PlanarTransform> solveDepthPoints(std::span<const RayToPoint> matc
   const auto solution = normal.solve();
   if (!solution) return std::nullopt;
   const auto& [v, y] = *solution;
+  bool in_front = true;
   for (const RayToPoint& match : matches) {
     const auto& [o, f] = match.ray_in_robot;
     const Vector X = fromPlace(match);
     const double x_from_ray = y.x + dot(X, v) - o.x(), y_from_ray = y.y + X.y * v.x - X.x * v.y - o.y();
-    if (!(x_from_ray * f.x() + y_from_ray * f.y() + (match.point_in_map.z() - o.z()) * f.z() > 0)) return std::nullopt;
+    in_front &= x_from_ray * f.x() + y_from_ray * f.y() + (match.point_in_map.z() - o.z()) * f.z() > 0;
   }
+  if (!in_front) return std::nullopt;
   return PlanarTransform{v.x, v.y, place.x() - dot(v, {y.x, -y.y}), place.y() - (v.y * y.x + v.x * y.y)};
 }
 

@@ -48,13 +48,13 @@ struct PointTerm {
   PointRows<double> rows;
   float pixel_u, pixel_v;                ///< observed, from the principal point, in units of the pixel noise
   std::array<float, 6> covariance_root;  ///< lower triangular L by columns, L L^T = covariance of the point
-  float peak_odds;  ///< of an inlier without residual, nor covariance of the point
+  float peak_odds;                       ///< of an inlier without residual, nor covariance of the point
 };
 
 struct RayTerm {
   RayRows<double> rows;
   float pixel_u_px, pixel_v_px;  ///< observed, from the principal point
-  float peak_odds;  ///< of an inlier without residual, nor covariance of the point
+  float peak_odds;               ///< of an inlier without residual, nor covariance of the point
 };
 
 /// Matches with depth seen by one query camera.

@@ -16,8 +16,9 @@ namespace vmcl {
 ///     bearing  f_h x (Y_h - o_h) = 0,      height  f_v |Y_h - o_h| = |f_h| (X_v - o_v),
 ///
 /// each divided by the range of the point as its height tells it. The translation is eliminated and the quadratic that
-/// is left is minimized on the unit circle, exactly (secular equation). The height equation, unlike the paper's division
-/// by f_v, does no harm for points near the horizon. Nothing when the points coincide or lie behind the cameras.
+/// is left is minimized on the unit circle, exactly (secular equation). The height equation, unlike the paper's
+/// division by f_v, does no harm for points near the horizon. Nothing when the points coincide or lie behind the
+/// cameras.
 std::optional<PlanarTransform> solveDepthPoints(std::span<const RayToPoint> matches);
 
 }  // namespace vmcl
