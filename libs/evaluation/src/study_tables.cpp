@@ -41,11 +41,24 @@ void writeErrors(std::ostream& out, const ErrorSummary& errors, int answered, do
         << ',' << errors.median * unit;
 }
 
+/// Without noise the bound is next to nothing.
+bool isComparableWithBound(const StudyCell& cell, const MethodSummary& row) {
+  return !isCramerRao(row) && row.successes > 0 && cell.world.noise_px > 0;
+}
+
+void writeOverBound(std::ostream& out, const StudyCell& cell, const MethodSummary& row) {
+  if (isComparableWithBound(cell, row))
+    out << ',' << row.over_bound << ',' << row.over_bound_interval.low << ',' << row.over_bound_interval.high;
+  else
+    out << ",,,";
+}
+
 void writeResults(const std::filesystem::path& file, const StudyRun& run) {
   AtomicFile csv(file);
   std::ostream& out = csv.stream();
   out << cell_columns << ",trials,answered,success,success_low,success_high,any_success,any_success_low,"
-      << "any_success_high,rmse_m,rmse_m_low,rmse_m_high,median_m,rmse_deg,rmse_deg_low,rmse_deg_high,median_deg\n"
+      << "any_success_high,rmse_m,rmse_m_low,rmse_m_high,median_m,rmse_deg,rmse_deg_low,rmse_deg_high,median_deg,"
+      << "over_cramer_rao,over_cramer_rao_low,over_cramer_rao_high\n"
       << std::setprecision(5);
   for (const auto& [cell, rows] : run.cells) {
     for (const MethodSummary& row : rows) {
@@ -58,6 +71,7 @@ void writeResults(const std::filesystem::path& file, const StudyRun& run) {
       }
       writeErrors(out, row.distance, row.answered, 1);
       writeErrors(out, row.angle, row.answered, deg);
+      writeOverBound(out, cell, row);
       out << '\n';
     }
   }
@@ -105,21 +119,19 @@ std::vector<WorldTotal> worldTotals(const StudyRun& run) {
   return totals;
 }
 
-/// Root mean square errors of each method over those that Cramer and Rao allow, of the accuracy figure.
 Json accuracyJson(const StudyRun& run) {
   Json list = Json::array();
   for (const auto& [cell, rows] : run.cells) {
-    if (cell.figure != Figure::accuracy || cell.world.noise_px == 0) continue;
-    const MethodSummary& bound = rows.back();
+    if (cell.figure != Figure::accuracy) continue;
     for (const MethodSummary& row : rows)
-      if (!isCramerRao(row) && row.answered > 0)
-        list.push_back(
-            {{"cameras", cell.world.cameras},
-             {"noise_px", cell.world.noise_px},
-             {"method", row.method},
-             {"rmse_m", row.distance.rms},
-             {"rmse_deg", row.angle.rms * deg},
-             {"rmse_over_cramer_rao", {row.distance.rms / bound.distance.rms, row.angle.rms / bound.angle.rms}}});
+      if (isComparableWithBound(cell, row))
+        list.push_back({{"cameras", cell.world.cameras},
+                        {"noise_px", cell.world.noise_px},
+                        {"method", row.method},
+                        {"rmse_m", row.distance.rms},
+                        {"rmse_deg", row.angle.rms * deg},
+                        {"over_cramer_rao", row.over_bound},
+                        {"over_cramer_rao_95", {row.over_bound_interval.low, row.over_bound_interval.high}}});
   }
   return list;
 }

@@ -2,7 +2,6 @@
 #include "success_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -22,10 +21,14 @@ std::vector<double> valuesOf(const StudyPicture& cells, double WorldSettings::*s
   return values;
 }
 
-std::string ticsOf(const std::vector<double>& values) {
-  std::ostringstream tics;
-  for (std::size_t i = 0; i < values.size(); ++i) tics << (i ? ", '" : "('") << values[i] << "' " << i;
-  return tics.str() + ")";
+/// An axis with a place for each of the values.
+std::string axisOf(char axis, const std::string& label, const std::vector<double>& values) {
+  std::ostringstream settings;
+  settings << "set " << axis << "tics ";
+  for (std::size_t i = 0; i < values.size(); ++i) settings << (i ? ", '" : "('") << values[i] << "' " << i;
+  settings << ")\nset " << axis << "range [-0.5:" << static_cast<double>(values.size()) - 0.5 << "]\nset " << axis
+           << "label '" << label << "' offset " << (axis == 'x' ? "0,0.6" : "1,0") << '\n';
+  return settings.str();
 }
 
 /// A map of one method.
@@ -66,13 +69,12 @@ std::string dataOf(const StudyPicture& cells, const Panel& panel, const std::vec
   return data.str();
 }
 
-/// Text on dark cells is white.
-std::string labels(const std::string& data, int text_column, double offset, int font_size) {
+/// A column of $map as text in the cells, white on dark ones.
+std::string labels(int column, double offset, int font_size) {
   std::ostringstream plot;
   for (const char* condition : {"<", ">="})
-    plot << ", " << data << " using ($3 " << condition << " 0.6 ? $1 : 1/0):2:" << text_column
-         << " with labels offset 0," << offset << " font '," << font_size << "' tc rgb '"
-         << (*condition == '<' ? "white" : "black") << "' notitle";
+    plot << ", $map using ($3 " << condition << " 0.6 ? $1 : 1/0):2:" << column << " with labels offset 0," << offset
+         << " font '," << font_size << "' tc rgb '" << (*condition == '<' ? "white" : "black") << "' notitle";
   return plot.str();
 }
 
@@ -83,28 +85,24 @@ void drawSuccessMaps(const std::filesystem::path& directory, const StudyPicture&
   const std::vector<double> outlier_rates = valuesOf(cells, &WorldSettings::outlier_rate);
   const std::vector<double> depth_rates = valuesOf(cells, &WorldSettings::depth_rate);
   const std::vector<Panel> panels = panelsOf(cells);
-  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns, height = 60 + 270 * rows;
 
   std::ostringstream commands;
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    commands << "$map" << i << " << END\n" << dataOf(cells, panels[i], outlier_rates, depth_rates) << "END\n";
   commands << "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n"
            << "set cbrange [0:1]\nunset colorbox\nunset key\nset tics scale 0\n"
-           << "set xtics " << ticsOf(outlier_rates) << "\nset ytics " << ticsOf(depth_rates) << '\n'
-           << "set xrange [-0.5:" << static_cast<double>(outlier_rates.size()) - 0.5
-           << "]\nset yrange [-0.5:" << static_cast<double>(depth_rates.size()) - 0.5 << "]\n"
-           << "set xlabel 'outlier rate' offset 0,0.5\nset ylabel 'depth rate' offset 1,0\n"
-           << "set multiplot layout " << rows << ',' << columns << " title 'Success rate (within " << success_distance
-           << " m and 1 deg) and its 95 % interval: world \"" << nameOf(world.world) << "\", " << camerasOf(world)
-           << ", " << world.matches_per_camera << " matches each, " << world.noise_px << " px noise'\n";
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const std::string data = "$map" + std::to_string(i);
-    commands << "set title '" << panels[i].title << "' offset 0,-0.5\nplot " << data
-             << " using 1:2:3 with image pixels notitle" << labels(data, 4, 0.5, 14) << labels(data, 5, -0.6, 10)
-             << '\n';
-  }
+           << axisOf('x', "outlier rate", outlier_rates) << axisOf('y', "depth rate", depth_rates)
+           << "set multiplot layout " << rows << ',' << columns << " margins 0.055,0.985," << 70.0 / height << ','
+           << 1 - 75.0 / height << " spacing 0.055," << 105.0 / height << " title 'Success rate (within "
+           << success_distance << " m and 1 deg) and its 95 % interval: world \"" << nameOf(world.world) << "\", "
+           << camerasOf(world) << ", " << world.matches_per_camera << " matches each, " << world.noise_px
+           << " px noise'\n";
+  for (const Panel& panel : panels)
+    commands << "$map << END\n"
+             << dataOf(cells, panel, outlier_rates, depth_rates) << "END\nset title '" << panel.title
+             << "' offset 0,-0.5\nplot $map using 1:2:3 with image pixels notitle" << labels(4, 0.5, 14)
+             << labels(5, -0.6, 11) << '\n';
   const std::string name = "success_" + std::string(nameOf(world.world)) + '_' + fileSuffix(world) + ".svg";
-  drawSvg(directory / name, "1300," + std::to_string(60 + 270 * rows), commands.str());
+  drawSvg(directory / name, "1300," + std::to_string(height), commands.str());
 }
 
 }  // namespace vmcl

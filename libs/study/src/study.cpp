@@ -15,6 +15,7 @@ namespace vmcl {
 namespace {
 
 constexpr double min_sigma_px = 0.5;      // methods are told no less: no camera is better
+constexpr double no_noise_px = 1e-3;      // stands for none, with which the Cramer-Rao bound has no value
 constexpr double threshold_in_sigma = 4;  // of inliers; tighter ones serve no method better, as points are off as well
 
 std::vector<StudyCell> allCells() {
@@ -36,9 +37,17 @@ std::vector<StudyCell> allCells() {
   return cells;
 }
 
-PoseError errorOf(const PlanarPose& pose, const PlanarPose& truth) {
-  return {std::hypot(pose.x - truth.x, pose.y - truth.y), std::abs(wrapAngle(pose.phi - truth.phi))};
-}
+/// What the answers to a problem are compared with.
+struct Truth {
+  PlanarPose map_from_robot;
+  Eigen::Matrix3d information;  ///< Fisher's
+
+  PoseError errorOf(const PlanarPose& pose) const {
+    const Eigen::Vector3d error(pose.x - map_from_robot.x, pose.y - map_from_robot.y,
+                                wrapAngle(pose.phi - map_from_robot.phi));
+    return {error.head<2>().norm(), std::abs(error.z()), error.dot(information * error)};
+  }
+};
 
 /// Processor time of this thread: other work on the machine does not count.
 double threadSeconds() {
@@ -48,14 +57,14 @@ double threadSeconds() {
 }
 
 template <class Estimate>
-MethodOutcome outcomeOf(const PlanarPose& truth, const Estimate& estimate) {
+MethodOutcome outcomeOf(const Truth& truth, const Estimate& estimate) {
   const double start = threadSeconds();
   const std::vector<PlanarPose> poses = estimate();
   MethodOutcome outcome;
   outcome.seconds = threadSeconds() - start;
-  if (!poses.empty()) outcome.error = errorOf(poses.front(), truth);
+  if (!poses.empty()) outcome.error = truth.errorOf(poses.front());
   outcome.any_success =
-      std::any_of(poses.begin(), poses.end(), [&](const PlanarPose& pose) { return errorOf(pose, truth).isSuccess(); });
+      std::any_of(poses.begin(), poses.end(), [&](const PlanarPose& pose) { return truth.errorOf(pose).isSuccess(); });
   return outcome;
 }
 
@@ -67,10 +76,9 @@ std::vector<PlanarPose> optimizedFromTruth(const SimulatedProblem& simulated, co
 }
 
 std::optional<PoseError> cramerRaoErrors(const SimulatedProblem& simulated, double noise_px) {
-  constexpr double no_noise_px = 1e-3;  // stands for none, with which the bound has no value
-  const auto covariance = cramerRaoBound(simulated, std::max(noise_px, no_noise_px));
+  const auto covariance = cramerRaoBound(simulated, noise_px);
   if (!covariance) return std::nullopt;
-  return PoseError{std::sqrt(covariance->topLeftCorner<2, 2>().trace()), std::sqrt((*covariance)(2, 2))};
+  return PoseError{std::sqrt(covariance->topLeftCorner<2, 2>().trace()), std::sqrt((*covariance)(2, 2)), 3};
 }
 
 /// At the share q of the sorted values; 0 for none.
@@ -93,7 +101,7 @@ MethodSummary summarizeErrors(const std::string& name, const std::vector<TrialRe
   MethodSummary summary;
   summary.method = name;
   summary.trials = static_cast<int>(trials.size());
-  std::vector<double> distances, angles;
+  std::vector<double> distances, angles, over_bound;
   for (const TrialResult& trial : trials) {
     const std::optional<PoseError>& error = error_of(trial);
     if (!error) continue;
@@ -101,9 +109,12 @@ MethodSummary summarizeErrors(const std::string& name, const std::vector<TrialRe
     summary.successes += error->isSuccess();
     distances.push_back(error->distance);
     angles.push_back(error->angle);
+    if (error->isSuccess()) over_bound.push_back(error->squared_over_bound / 3);
   }
   summary.distance = errorSummary(distances);
   summary.angle = errorSummary(angles);
+  summary.over_bound = rootMean(over_bound);
+  summary.over_bound_interval = bootstrapRootMean(over_bound);
   return summary;
 }
 
@@ -150,13 +161,13 @@ TrialResult runTrial(const StudyCell& cell, const std::vector<PoseMethod>& metho
   Random random(seed, static_cast<uint64_t>(cell.number) << 32 | static_cast<uint64_t>(trial));
   const SimulatedProblem simulated = simulateProblem(cell.world, random);
   const MethodSettings settings = settingsOf(cell, trial);
+  const double bound_noise_px = std::max(cell.world.noise_px, no_noise_px);
+  const Truth truth{simulated.map_from_robot, fisherInformation(simulated, bound_noise_px)};
   TrialResult result;
   for (const PoseMethod& method : methods)
-    result.outcomes.push_back(
-        outcomeOf(simulated.map_from_robot, [&] { return method.estimate(simulated.problem, settings); }));
-  result.outcomes.push_back(
-      outcomeOf(simulated.map_from_robot, [&] { return optimizedFromTruth(simulated, settings); }));
-  result.cramer_rao = cramerRaoErrors(simulated, cell.world.noise_px);
+    result.outcomes.push_back(outcomeOf(truth, [&] { return method.estimate(simulated.problem, settings); }));
+  result.outcomes.push_back(outcomeOf(truth, [&] { return optimizedFromTruth(simulated, settings); }));
+  result.cramer_rao = cramerRaoErrors(simulated, bound_noise_px);
   return result;
 }
 

@@ -45,10 +45,11 @@ std::vector<PoseMethod> methodsOf(const StudyCell& cell);
 /// What the methods of the cell are told about it.
 MethodSettings settingsOf(const StudyCell& cell, int trial);
 
-/// Errors of a pose: distance in m, angle in rad.
+/// Errors of a pose.
 struct PoseError {
-  double distance = 0;
-  double angle = 0;
+  double distance = 0;            ///< m
+  double angle = 0;               ///< rad
+  double squared_over_bound = 0;  ///< squared Mahalanobis length under the Cramer-Rao bound; 3 on average if efficient
 
   bool isSuccess() const { return distance < success_distance && angle < success_angle; }
 };
@@ -80,9 +81,11 @@ struct MethodSummary {
   int trials = 0;
   int answered = 0;
   int successes = 0;
-  int any_successes = 0;            ///< trials in which one of the poses found was a success
-  ErrorSummary distance;            ///< m
-  ErrorSummary angle;               ///< rad
+  int any_successes = 0;  ///< trials in which one of the poses found was a success
+  ErrorSummary distance;  ///< m
+  ErrorSummary angle;     ///< rad
+  double over_bound = 0;  ///< RMS error of the successes over what Cramer and Rao allow; 1: efficient
+  Interval over_bound_interval;
   std::array<double, 3> seconds{};  ///< processor time of an estimate, quartiles
 };
 
