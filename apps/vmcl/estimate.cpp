@@ -2,7 +2,6 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <numbers>
 #include <string>
 
 #include "estimation_json.h"
@@ -84,9 +83,7 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--sigma-px", options->estimator.likelihood.sigma_px, "standard deviation of a pixel coordinate")
       ->capture_default_str();
-  const auto inDegrees = [](double& radians) {
-    return [&radians](double degrees) { radians = degrees * std::numbers::pi / 180; };
-  };
+  const auto inDegrees = [](double& radians) { return [&radians](double degrees) { radians = degrees * degree; }; };
   verb->add_option_function<double>("--sigma-tilt-deg", inDegrees(options->estimator.plane.sigma_tilt),
                                     "standard deviation of the robot's roll and pitch; 0: it stands upright")
       ->default_str("0");

@@ -2,7 +2,6 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <numbers>
 
 #include "problem_report.h"
 #include "progress_bar.h"
@@ -45,7 +44,6 @@ ProblemReport replay(Localizer& localizer, const std::filesystem::path& rawlog, 
 }
 
 void printSummary(const LocalizationRun& run) {
-  constexpr double degree = std::numbers::pi / 180;
   std::cout << std::fixed << std::setprecision(3);
   const auto first =
       std::find_if(run.frames.begin(), run.frames.end(), [](const LocalizationFrame& f) { return f.localized; });

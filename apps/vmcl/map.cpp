@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 #include <memory>
-#include <numbers>
 
 #include "posed_images.h"
 #include "progress_bar.h"
@@ -11,8 +10,6 @@
 
 namespace vmcl {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct MapArguments {
   std::string input;

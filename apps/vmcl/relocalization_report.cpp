@@ -5,15 +5,12 @@
 #include <iomanip>
 #include <iostream>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "vmcl/geometry/atomic_file.h"
 
 namespace vmcl {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Value below which the share of the sample lies; 0 for an empty sample.
 double quantile(std::vector<double> sample, double share) {

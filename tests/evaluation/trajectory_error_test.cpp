@@ -3,12 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 namespace vmcl {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Ground truth that drives along x at 1 m/s from t = 0 to 10 s.
 Trajectory straightDrive() {

@@ -16,8 +16,6 @@ namespace {
 
 using testing::Recording;
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// Number of the room's point that has this descriptor, for every descriptor.
 class PointFinder {
  public:

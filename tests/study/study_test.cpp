@@ -57,13 +57,14 @@ TEST(Study, MethodsAreToldTheNoise) {
 
 TEST(Study, SummaryCountsWhatHappened) {
   const std::vector<PoseMethod> methods{fixedAnswer("a", {}), fixedAnswer("b", {})};
-  const auto trial = [](std::optional<PoseError> a, bool a_any, std::optional<PoseError> b,
-                        std::optional<PoseError> c) {
-    return TrialResult{{{a, a_any, 1}, {b, false, 2}, {PoseError{0, 0}, true, 3}}, c};
+  const auto trial = [](std::optional<EstimationError> a, bool a_any, std::optional<EstimationError> b,
+                        std::optional<EstimationError> c) {
+    return TrialResult{{{a, a_any, 1}, {b, false, 2}, {EstimationError{0, 0}, true, 3}}, c};
   };
-  const std::vector<TrialResult> trials{trial(PoseError{0.03, 0.001}, true, std::nullopt, PoseError{0.01, 0.002}),
-                                        trial(PoseError{0.04, 0.1}, true, std::nullopt, std::nullopt),
-                                        trial(PoseError{5, 0}, false, std::nullopt, PoseError{0.01, 0.004})};
+  const std::vector<TrialResult> trials{
+      trial(EstimationError{0.03, 0.001}, true, std::nullopt, EstimationError{0.01, 0.002}),
+      trial(EstimationError{0.04, 0.1}, true, std::nullopt, std::nullopt),
+      trial(EstimationError{5, 0}, false, std::nullopt, EstimationError{0.01, 0.004})};
   const auto rows = summarize(methods, trials);
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].method, "a");

@@ -3,15 +3,13 @@
 
 #include <mrpt/poses/CPose3D.h>
 
-#include <numbers>
-
+#include "vmcl/geometry/planar_pose.h"
 #include "yaml_map.h"
 
 namespace vmcl {
 
 /// Reads {x, y, z, yaw_deg, pitch_deg, roll_deg}: where a sensor sits on the robot, axes as the robot's (x forward).
 inline mrpt::poses::CPose3D readMount(YamlMap yaml) {
-  constexpr double degree = std::numbers::pi / 180;
   const mrpt::poses::CPose3D mount(yaml.get("x", 0.0), yaml.get("y", 0.0), yaml.get("z", 0.0),
                                    yaml.get("yaw_deg", 0.0) * degree, yaml.get("pitch_deg", 0.0) * degree,
                                    yaml.get("roll_deg", 0.0) * degree);

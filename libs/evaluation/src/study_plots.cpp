@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
 #include "gnuplot.h"
@@ -11,8 +10,6 @@
 
 namespace vmcl {
 namespace {
-
-constexpr double deg = 180 / std::numbers::pi;
 
 /// Colours that the colour-blind tell apart (Okabe and Ito 2008), each with a shape of its own.
 std::string styleOf(const std::string& method) {
@@ -112,7 +109,7 @@ void drawAccuracy(const std::filesystem::path& directory, const StudyPicture& ce
   commands << "set key at screen 0.99,0.9 right top vertical spacing 1.3\n";
   plotLines(commands, "heading", {"", "image noise [px]", "heading error, RMS [deg]", ""},
             linesOf(cells, noise, shift, 1,
-                    [&](double x, const MethodSummary& row) { return errorPoint(x, row.angle, shown(x, row), deg); }));
+                    [&](double x, const MethodSummary& row) { return errorPoint(x, row.angle, shown(x, row), 1 / degree); }));
   drawSvg(directory / ("accuracy_" + fileSuffix(world) + ".svg"), "1300,560", commands.str());
 }
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iomanip>
-#include <numbers>
 #include <sstream>
 
 #include "study_picture.h"
 
 namespace vmcl {
 namespace {
-
-constexpr double deg = 180 / std::numbers::pi;
 
 std::string withDigits(double value, int digits) {
   std::ostringstream text;
@@ -37,7 +34,7 @@ void printAccuracy(std::ostream& out, const StudyPicture& cells) {
   printTable(out, "Position error, RMS in m" + where, "noise [px]", cells, place,
              [&](const MethodSummary& row) { return error(row, row.distance.rms); });
   printTable(out, "Heading error, RMS in deg" + where, "noise [px]", cells, place,
-             [&](const MethodSummary& row) { return error(row, row.angle.rms * deg); });
+             [&](const MethodSummary& row) { return error(row, row.angle.rms / degree); });
 }
 
 void printSuccess(std::ostream& out, const StudyPicture& cells) {

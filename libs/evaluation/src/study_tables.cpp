@@ -3,7 +3,6 @@
 #include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
 #include "vmcl/evaluation/study_report.h"
@@ -13,8 +12,6 @@ namespace vmcl {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double deg = 180 / std::numbers::pi;
 
 bool isCramerRao(const MethodSummary& row) { return row.method == cramer_rao_name; }
 
@@ -70,7 +67,7 @@ void writeResults(const std::filesystem::path& file, const StudyRun& run) {
         writeSuccess(out, row.any_successes, row.trials);
       }
       writeErrors(out, row.distance, row.answered, 1);
-      writeErrors(out, row.angle, row.answered, deg);
+      writeErrors(out, row.angle, row.answered, 1 / degree);
       writeOverBound(out, cell, row);
       out << '\n';
     }
@@ -129,7 +126,7 @@ Json accuracyJson(const StudyRun& run) {
                         {"noise_px", cell.world.noise_px},
                         {"method", row.method},
                         {"rmse_m", row.distance.rms},
-                        {"rmse_deg", row.angle.rms * deg},
+                        {"rmse_deg", row.angle.rms / degree},
                         {"over_cramer_rao", row.over_bound},
                         {"over_cramer_rao_95", {row.over_bound_interval.low, row.over_bound_interval.high}}});
   }
@@ -140,7 +137,7 @@ void writeSummary(const std::filesystem::path& file, const StudyRun& run) {
   const MethodSettings settings;
   Json json{{"seed", run.seed},
             {"trials", run.trials},
-            {"success", {{"max_error_m", success_distance}, {"max_error_deg", success_angle * deg}}},
+            {"success", {{"max_error_m", success_distance}, {"max_error_deg", success_angle / degree}}},
             {"iterations", settings.iterations},
             {"confidence", settings.confidence},
             {"methods", Json::array()},

@@ -42,7 +42,7 @@ struct Truth {
   PlanarPose map_from_robot;
   Eigen::Matrix3d information;  ///< Fisher's
 
-  PoseError errorOf(const PlanarPose& pose) const {
+  EstimationError errorOf(const PlanarPose& pose) const {
     const Eigen::Vector3d error(pose.x - map_from_robot.x, pose.y - map_from_robot.y,
                                 wrapAngle(pose.phi - map_from_robot.phi));
     return {error.head<2>().norm(), std::abs(error.z()), error.dot(information * error)};
@@ -75,10 +75,10 @@ std::vector<PlanarPose> optimizedFromTruth(const SimulatedProblem& simulated, co
   return {PoseRefiner(likelihood, {}).refine(PlanarTransform(simulated.map_from_robot)).map_from_robot};
 }
 
-std::optional<PoseError> cramerRaoErrors(const SimulatedProblem& simulated, double noise_px) {
+std::optional<EstimationError> cramerRaoErrors(const SimulatedProblem& simulated, double noise_px) {
   const auto covariance = cramerRaoBound(simulated, noise_px);
   if (!covariance) return std::nullopt;
-  return PoseError{std::sqrt(covariance->topLeftCorner<2, 2>().trace()), std::sqrt((*covariance)(2, 2)), 3};
+  return EstimationError{std::sqrt(covariance->topLeftCorner<2, 2>().trace()), std::sqrt((*covariance)(2, 2)), 3};
 }
 
 /// At the share q of the sorted values; 0 for none.
@@ -103,7 +103,7 @@ MethodSummary summarizeErrors(const std::string& name, const std::vector<TrialRe
   summary.trials = static_cast<int>(trials.size());
   std::vector<double> distances, angles, over_bound;
   for (const TrialResult& trial : trials) {
-    const std::optional<PoseError>& error = error_of(trial);
+    const std::optional<EstimationError>& error = error_of(trial);
     if (!error) continue;
     ++summary.answered;
     summary.successes += error->isSuccess();
@@ -177,7 +177,7 @@ std::vector<MethodSummary> summarize(const std::vector<PoseMethod>& methods, con
     const auto outcome = [m](const TrialResult& trial) -> const MethodOutcome& { return trial.outcomes[m]; };
     MethodSummary& row = rows.emplace_back(summarizeErrors(
         m < methods.size() ? methods[m].name : bound_name, trials,
-        [&](const TrialResult& trial) -> const std::optional<PoseError>& { return outcome(trial).error; }));
+        [&](const TrialResult& trial) -> const std::optional<EstimationError>& { return outcome(trial).error; }));
     std::vector<double> seconds;
     for (const TrialResult& trial : trials) {
       row.any_successes += outcome(trial).any_success;

@@ -2,7 +2,6 @@
 #include "scene.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "decorations.h"
 #include "materials.h"
@@ -12,7 +11,6 @@ namespace vmcl {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double degree = std::numbers::pi / 180;
 constexpr double max_extent = 100;  // m
 
 Vector2d readPoint(YamlMap& yaml, const std::string& key) {

@@ -2,15 +2,12 @@
 #include "simulation_setup.h"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
 #include "../sensor_mount.h"
 
 namespace vmcl {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double within(YamlMap& yaml, const std::string& key, double fallback, double low, double high) {
   const double value = yaml.get(key, fallback);

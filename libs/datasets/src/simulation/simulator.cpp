@@ -5,7 +5,6 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <algorithm>
-#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <stdexcept>
@@ -17,7 +16,7 @@ namespace vmcl {
 namespace {
 
 constexpr double start_time = 1000;  // s
-constexpr double map_frame_way = 0.15, map_frame_turn = 8 * std::numbers::pi / 180;
+constexpr double map_frame_way = 0.15, map_frame_turn = 8 * degree;
 constexpr int jpeg_quality = 92;
 
 enum class Sensor { odometry, laser, camera };

@@ -10,6 +10,8 @@ namespace vmcl {
 /// Rigid transform in space; the variable's name says which: a_from_b maps points of frame b into frame a.
 using Rigid3 = Eigen::Isometry3d;
 
+inline constexpr double degree = std::numbers::pi / 180;  ///< in radians
+
 /// Pose of a frame on the ground plane, usually map_from_robot: x, y in metres, phi (yaw, counter-clockwise seen from
 /// above) in radians. Map and robot frames: x forward, y left, z up.
 struct PlanarPose {

@@ -46,7 +46,7 @@ std::vector<PoseMethod> methodsOf(const StudyCell& cell);
 MethodSettings settingsOf(const StudyCell& cell, int trial);
 
 /// Errors of a pose.
-struct PoseError {
+struct EstimationError {
   double distance = 0;            ///< m
   double angle = 0;               ///< rad
   double squared_over_bound = 0;  ///< squared Mahalanobis length under the Cramer-Rao bound; 3 on average if efficient
@@ -55,14 +55,15 @@ struct PoseError {
 };
 
 struct MethodOutcome {
-  std::optional<PoseError> error;  ///< nothing: no pose found
-  bool any_success = false;        ///< whether one of the poses found is a success
-  double seconds = 0;              ///< processor time
+  std::optional<EstimationError> error;  ///< nothing: no pose found
+  bool any_success = false;              ///< whether one of the poses found is a success
+  double seconds = 0;                    ///< processor time
 };
 
 struct TrialResult {
   std::vector<MethodOutcome> outcomes;  ///< in the order of methodsOf(), then the likelihood optimized from the truth
-  std::optional<PoseError> cramer_rao;  ///< root of the traces of the bound; nothing: the inliers do not fix the pose
+  std::optional<EstimationError>
+      cramer_rao;  ///< root of the traces of the bound; nothing: the inliers do not fix the pose
 };
 
 /// Draws the trial's problem and lets each method solve it. The same arguments give the same result, but for seconds.
