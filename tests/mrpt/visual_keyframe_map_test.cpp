@@ -58,7 +58,7 @@ class VisualKeyframeMapTest : public ::testing::Test {
     return map.computeObservationLikelihood(observation, mrptPose(robot_in_map));
   }
 
-  /// The truth is likelier than anything a little off, and far likelier than what is far off.
+  /// The truth is likelier than anything a little off, and far likelier than what is far off (10: 1 to 20,000).
   static void expectPeakAt(const PlanarPose& truth, const VisualKeyframeMap& map, const CObservationImage& image) {
     const double at_truth = logLikelihood(map, image, truth);
     for (const double step : {0.15, -0.15}) {
@@ -66,7 +66,7 @@ class VisualKeyframeMapTest : public ::testing::Test {
       EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y + step, truth.phi}));
       EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + step}) + 5);
     }
-    EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + 2}) + 20);
+    EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + 2}) + 10);
   }
 
   inline static const SyntheticRoom room_;
@@ -120,7 +120,7 @@ TEST_F(VisualKeyframeMapTest, ACameraOfTheMapKeepsItsMount) {
   expectPeakAt(truth_, map, image);
   image.sensorLabel = "other";  // now the log is believed
   EXPECT_LT(logLikelihood(map, image, truth_), 5);
-  EXPECT_GT(logLikelihood(map, image, truth_ * inverse(planarPart(toRigid3({0, 0, 1.0})))), 20);
+  EXPECT_GT(logLikelihood(map, image, truth_ * inverse(planarPart(toRigid3({0, 0, 1.0})))), 10);
 }
 
 TEST_F(VisualKeyframeMapTest, ANewImageInTheSameObjectIsSeen) {
