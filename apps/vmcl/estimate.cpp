@@ -72,12 +72,14 @@ int run(const EstimateOptions& options) {
 void addEstimateVerb(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<EstimateOptions>();
   CLI::App* verb = app.add_subcommand("estimate", "Estimate poses from matches: JSON Lines in, JSON Lines out");
-  static const std::map<std::string, Solver> solvers{
-      {"auto", Solver::automatic}, {"1p1dp", Solver::one_point_one_depth}, {"2dp", Solver::two_depth}};
-  verb->add_option("--solver", options->estimator.solver, "kind of samples drawn: auto, 1p1dp or 2dp")
+  static const std::map<std::string, Solver> solvers{{"auto", Solver::automatic},
+                                                     {"1p1dp", Solver::one_point_one_depth},
+                                                     {"2dp", Solver::two_depth},
+                                                     {"3p", Solver::three_rays}};
+  verb->add_option("--solver", options->estimator.solver, "kind of samples drawn: auto, 1p1dp, 2dp or 3p")
       ->transform(CLI::CheckedTransformer(solvers))
       ->default_str("auto");
-  verb->add_option("--iterations", options->estimator.iterations, "samples drawn")->capture_default_str();
+  verb->add_option("--iterations", options->estimator.iterations, "most samples drawn")->capture_default_str();
   verb->add_option("--seed", options->estimator.seed, "same seed, same answers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -117,6 +117,7 @@ IdentifiedProblem parseProblem(const std::string& line, std::string& id) {
 
 std::string formatEstimate(const std::string& id, const PoseEstimate& estimate, std::optional<double> time_us) {
   Json json{{"id", id}, {"status", estimate.found() ? "ok" : "no_pose"}, {"message", estimate.reason}};
+  if (!estimate.found()) json["reason"] = nameOf(estimate.failure);
   if (estimate.found()) {
     const PoseMode& first = estimate.modes.front();
     json["robot_in_map"] = pose(first.robot_in_map);
@@ -129,6 +130,10 @@ std::string formatEstimate(const std::string& id, const PoseEstimate& estimate, 
                        {"inliers", mode.inliers.size()}});
     json["inliers"] = first.inliers;
     json["solver"] = nameOf(first.solver);
+    json["inlier_rate"] = estimate.inlier_rate;
+    json["off_plane_log_odds"] = estimate.off_plane_log_odds;
+    Json& degenerate = json["degenerate"] = Json::array();
+    for (const Degeneracy degeneracy : estimate.degeneracies) degenerate.push_back(nameOf(degeneracy));
   }
   if (time_us) json["time_us"] = *time_us;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -53,6 +53,12 @@ class EstimateTest(CommandTest):
                 self.assertAlmostEqual(found, true, delta=6 * math.sqrt(variance))  # false alarm: 1e-7
             self.assertEqual(answer['modes'][0]['robot_in_map'], answer['robot_in_map'])
             self.assertIn(answer['solver'], ('1p1dp', '2dp'))
+            self.assertTrue(0 < answer['inlier_rate'] <= 1)
+            self.assertLess(answer['off_plane_log_odds'], 5)
+
+    def test_degenerate_configuration_is_reported(self):
+        printed = self.succeed('estimate', stdin=lines(problem('a', (0, 0, 0)), problem('b', (1.5, 0.5, 0.1))))
+        self.assertEqual([json.loads(line)['degenerate'] for line in printed.splitlines()], [['no_baseline'], []])
 
     def test_same_seed_same_bytes_for_any_number_of_threads(self):
         problems = lines(*(problem(f'p{i}', (0.3, 0.1, 0.2), seed=i) for i in range(40)))
@@ -65,6 +71,7 @@ class EstimateTest(CommandTest):
         answer = json.loads(self.succeed('estimate', stdin=lines(empty)))
         self.assertEqual((answer['id'], answer['status']), ('empty', 'no_pose'))
         self.assertTrue(answer['message'])
+        self.assertEqual(answer['reason'], 'too_few_matches')
 
     def assert_bad_line(self, bad, *words):
         """A bad line is answered and named; the good lines around it are answered all the same."""

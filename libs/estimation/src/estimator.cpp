@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/estimation/estimator.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -28,28 +30,6 @@ struct Hypothesis {
   Solver solver;
 };
 
-/// Samples of the wanted kinds; each kind draws all iterations that are its share.
-std::vector<Hypothesis> drawHypotheses(const PoseProblem& problem, const EstimatorOptions& options) {
-  const MinimalSampler sampler(problem);
-  const bool one = options.solver != Solver::two_depth && sampler.canDrawOnePointOneDepth();
-  const bool two = options.solver != Solver::one_point_one_depth && sampler.canDrawTwoDepth();
-  const int of_two = two ? (one ? options.iterations / 2 : options.iterations) : 0;
-  Random random(options.seed);
-  std::vector<Hypothesis> hypotheses;
-  std::vector<PlanarTransform> poses;
-  const auto collect = [&](Solver solver) {
-    for (const PlanarTransform& pose : poses)
-      if (std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.c) && std::isfinite(pose.s))
-        hypotheses.push_back({pose, solver});
-    poses.clear();
-  };
-  if (two) sampler.drawTwoDepth(of_two, random, poses);
-  collect(Solver::two_depth);
-  if (one) sampler.drawOnePointOneDepth(options.iterations - of_two, random, poses);
-  collect(Solver::one_point_one_depth);
-  return hypotheses;
-}
-
 /// Hypotheses that optimization takes to the same place, so that one of them is enough (m, rad).
 bool alike(const Hypothesis& a, const Hypothesis& b) {
   constexpr double near = 0.02;
@@ -57,56 +37,216 @@ bool alike(const Hypothesis& a, const Hypothesis& b) {
          std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
 }
 
-/// Log odds of the pose against chance: its likelihood ratio, integrated over the peak with a prior that spreads over
-/// all headings and all places within sight of the references, when most images show a place of the map. The best of
-/// many poses fits some outliers always; this asks for more.
-double logEvidence(const RefinedPose& refined) {
-  constexpr double reach = 10;  // m
-  constexpr double odds_of_a_known_place = 20;
-  const double volume = std::numbers::pi * reach * reach * 2 * std::numbers::pi;
-  return refined.log_evidence - std::log(volume) + std::log(odds_of_a_known_place);
+/// Kinds of samples that are wanted and possible.
+std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
+  std::vector<Solver> kinds;
+  for (const Solver kind : {Solver::two_depth, Solver::one_point_one_depth})
+    if ((wanted == kind || wanted == Solver::automatic) && sampler.canDraw(kind)) kinds.push_back(kind);
+  const bool rays_alone = wanted == Solver::automatic && kinds.empty();
+  if ((wanted == Solver::three_rays || rays_alone) && sampler.canDraw(Solver::three_rays))
+    kinds.push_back(Solver::three_rays);
+  return kinds;
 }
 
-std::vector<PoseMode> refineModes(const PoseLikelihood& likelihood, const EstimatorOptions& options,
-                                  const std::vector<ScoredHypothesis<Hypothesis>>& hypotheses) {
-  const PoseRefiner refiner(likelihood, options.plane);
-  std::vector<PoseMode> modes;
-  for (const auto& [hypothesis, score] : hypotheses) {
-    const RefinedPose refined = refiner.refine(hypothesis.pose);
-    if (!refined.constrained || !(logEvidence(refined) > 0)) continue;
-    PoseMode& mode = modes.emplace_back();
-    mode.robot_in_map = refined.map_from_robot;
-    mode.covariance = refined.covariance;
-    mode.log_likelihood = refined.log_likelihood;
-    mode.log_evidence = logEvidence(refined);
-    mode.inliers = refiner.inliers(refined);
-    mode.solver = hypothesis.solver;
+/// RANSAC whose kinds of samples each go on until one without outliers is all but certain, by the best pose so far.
+class Search {
+ public:
+  Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
+      : sampler_(problem), likelihood_(likelihood), refiner_(likelihood, {}), random_(options.seed) {
+    for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
+    int left = options.iterations;
+    for (bool drew = !kinds_.empty(); drew && left > 0;) {
+      drew = false;
+      for (Kind& kind : kinds_) {
+        const int wanted = std::min(samplesWanted(kind), left);
+        if (wanted <= 0) continue;
+        draw(kind, wanted);
+        left -= wanted;
+        drew = true;
+      }
+    }
   }
-  return modes;
+
+  bool canDraw() const { return !kinds_.empty(); }
+
+  /// The best hypotheses, alike ones once, the best first.
+  std::vector<ScoredHypothesis<Hypothesis>> best(int count) const {
+    const auto score = [&](std::span<const Hypothesis>, std::span<double> scores) {
+      std::copy(scores_.begin(), scores_.end(), scores.begin());
+    };
+    return bestHypotheses(hypotheses_, count, score, alike);
+  }
+
+ private:
+  struct Kind {
+    Solver solver;
+    int drawn = 0;
+  };
+
+  /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than so many that hardly a
+  /// possible sample is left out.
+  int samplesWanted(const Kind& kind) const {
+    constexpr int at_first = 250;
+    constexpr double miss = 1e-3, coverage = 3;
+    if (kind.drawn == 0) return at_first;
+    const double different = sampler_.sampleCount(kind.solver);
+    const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
+    const double needed = std::min(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)), coverage * different);
+    return different <= at_first ? 0 : static_cast<int>(std::min(std::ceil(needed) - kind.drawn, 1.0 * kind.drawn));
+  }
+
+  void draw(Kind& kind, int count) {
+    std::vector<PlanarTransform> poses;
+    sampler_.draw(kind.solver, count, random_, poses);
+    std::erase_if(poses, [](const PlanarTransform& pose) {
+      return !std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.c) || !std::isfinite(pose.s);
+    });
+    std::vector<double> scores(poses.size());
+    likelihood_.evaluate(poses, scores);
+    const auto top = std::max_element(scores.begin(), scores.end());
+    if (top != scores.end() && *top > best_score_) {
+      best_score_ = *top;
+      RefinedPose pose;
+      pose.map_from_robot = poses[static_cast<std::size_t>(top - scores.begin())].pose();
+      inliers_ = refiner_.inliers(pose);
+    }
+    for (const PlanarTransform& pose : poses) hypotheses_.push_back({pose, kind.solver});
+    scores_.insert(scores_.end(), scores.begin(), scores.end());
+    kind.drawn += count;
+  }
+
+  MinimalSampler sampler_;
+  const PoseLikelihood& likelihood_;
+  PoseRefiner refiner_;
+  Random random_;
+  std::vector<Kind> kinds_;
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<double> scores_;
+  double best_score_ = -std::numeric_limits<double>::infinity();
+  std::vector<int> inliers_;  ///< of the best pose so far
+};
+
+/// Log odds of the pose against chance: its likelihood ratio, integrated over the peak with a prior that spreads over
+/// all headings and all places within sight of the references.
+double logEvidence(const RefinedPose& refined) {
+  constexpr double reach = 10;  // m
+  const double volume = std::numbers::pi * reach * reach * 2 * std::numbers::pi;
+  return refined.log_evidence - std::log(volume);
+}
+
+/// Whether the robot is rather here than nowhere. The best of many poses always fits some outliers, and a share of
+/// inliers fitted to them makes much of it: so believe in one other than the options' only if the evidence is strong.
+bool isBetterThanChance(const RefinedPose& refined, const PoseLikelihood& as_expected) {
+  constexpr double log_odds_of_a_known_place = 3, log_odds_of_another_share = -5;
+  const double expected = logEvidence(refined) - refined.log_likelihood + as_expected(refined.rigid());
+  return std::max(expected, logEvidence(refined) + log_odds_of_another_share) + log_odds_of_a_known_place > 0;
+}
+
+struct RefinedHypothesis {
+  RefinedPose pose;
+  Solver solver;
+};
+
+/// Each optimized, those without a pose dropped, the heaviest first, and of those that ended at one peak the first.
+std::vector<RefinedHypothesis> refined(const PoseRefiner& refiner, const std::vector<Hypothesis>& hypotheses) {
+  std::vector<RefinedHypothesis> all;
+  for (const auto& [pose, solver] : hypotheses) {
+    all.push_back({refiner.refine(pose), solver});
+    if (!all.back().pose.constrained) all.pop_back();
+  }
+  std::stable_sort(all.begin(), all.end(), [](const RefinedHypothesis& a, const RefinedHypothesis& b) {
+    return a.pose.log_evidence > b.pose.log_evidence;
+  });
+  std::vector<RefinedHypothesis> kept;
+  for (const RefinedHypothesis& one : all) {
+    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const RefinedHypothesis& better) {
+      return difference(one.pose.map_from_robot, better.pose.map_from_robot).cwiseAbs().maxCoeff() < 1e-4;
+    });
+    if (!seen) kept.push_back(one);
+  }
+  return kept;
+}
+
+double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
+  const RefinedPose off =
+      PoseRefiner(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2}).refine(PlanarTransform(refined.map_from_robot));
+  return off.constrained ? off.log_evidence - refined.log_evidence : 0;
+}
+
+PoseEstimate noPose(NoPose failure) {
+  PoseEstimate estimate;
+  estimate.failure = failure;
+  switch (failure) {
+    case NoPose::none:
+      break;
+    case NoPose::too_few_matches:
+      estimate.reason = "fewer matches than a sample needs";
+      break;
+    case NoPose::no_sample:
+      estimate.reason = "no sample gives a pose: too few matches with depth, or degenerate ones";
+      break;
+    case NoPose::unconstrained:
+      estimate.reason = "the matches do not fix the pose";
+      break;
+    case NoPose::no_better_than_chance:
+      estimate.reason = "no pose explains the matches better than chance";
+      break;
+  }
+  return estimate;
 }
 
 }  // namespace
 
+std::string_view nameOf(NoPose failure) {
+  switch (failure) {
+    case NoPose::none:
+      break;
+    case NoPose::too_few_matches:
+      return "too_few_matches";
+    case NoPose::no_sample:
+      return "no_sample";
+    case NoPose::unconstrained:
+      return "unconstrained";
+    case NoPose::no_better_than_chance:
+      return "no_better_than_chance";
+  }
+  return "";
+}
+
 PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& options) {
   options.check();
-  const PoseLikelihood likelihood(problem, options.likelihood);
-  PoseEstimate estimate;
-  const auto noPose = [&](const char* reason) {
-    estimate.reason = reason;
-    return estimate;
-  };
-  if (problem.matches.size() < 2) return noPose("fewer than two matches");
-  const std::vector<Hypothesis> hypotheses = drawHypotheses(problem, options);
-  if (hypotheses.empty()) return noPose("no sample gives a pose: too few matches with depth, or degenerate ones");
+  const PoseLikelihood first_guess(problem, options.likelihood);
+  const Search search(problem, first_guess, options);
+  if (!search.canDraw()) return noPose(problem.matches.size() < 2 ? NoPose::too_few_matches : NoPose::no_sample);
+  std::vector<Hypothesis> starts;
+  for (const auto& [hypothesis, score] : search.best(options.refined)) starts.push_back(hypothesis);
+  if (starts.empty()) return noPose(NoPose::no_sample);
 
-  const auto score = [&](std::span<const Hypothesis> all, std::span<double> scores) {
-    std::vector<PlanarTransform> poses;
-    for (const Hypothesis& hypothesis : all) poses.push_back(hypothesis.pose);
-    likelihood.evaluate(poses, scores);
-  };
-  estimate.modes = mergeModes(
-      refineModes(likelihood, options, bestHypotheses(hypotheses, options.refined, score, alike)), options.max_modes);
-  if (!estimate.found()) estimate.reason = "no pose explains the matches better than chance";
+  const PoseRefiner first_refiner(first_guess, options.plane);
+  const std::vector<RefinedHypothesis> peaks = refined(first_refiner, starts);
+  if (peaks.empty()) return noPose(NoPose::unconstrained);
+
+  // Judged and optimized once more with the share of inliers that the best pose shows.
+  LikelihoodOptions as_seen = options.likelihood;
+  as_seen.inlier_prior = first_refiner.inlierRate(peaks.front().pose);
+  const PoseLikelihood likelihood(problem, as_seen);
+  const PoseRefiner refiner(likelihood, options.plane);
+  starts.clear();
+  for (const RefinedHypothesis& peak : peaks)
+    starts.push_back({PlanarTransform(peak.pose.map_from_robot), peak.solver});
+  PoseEstimate estimate;
+  const std::vector<RefinedHypothesis> final_peaks = refined(refiner, starts);
+  for (const auto& [pose, solver] : final_peaks) {
+    if (!isBetterThanChance(pose, first_guess)) continue;
+    estimate.modes.push_back({pose.map_from_robot, pose.covariance, pose.log_likelihood, logEvidence(pose), 0,
+                              refiner.inliers(pose), solver});
+  }
+  if (!estimate.found()) return noPose(NoPose::no_better_than_chance);
+  estimate.modes = mergeModes(std::move(estimate.modes), options.max_modes);
+  estimate.inlier_rate = as_seen.inlier_prior;
+  const PoseMode& best = estimate.modes.front();
+  estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
+  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, final_peaks.front().pose);
   return estimate;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "vmcl/estimation/pose_mixture.h"
 #include "vmcl/estimation/rays.h"
 #include "vmcl/geometry/planar_transform.h"
 #include "vmcl/geometry/pose_problem.h"
@@ -15,17 +16,23 @@ class MinimalSampler {
  public:
   explicit MinimalSampler(const PoseProblem& problem);
 
-  /// A match with depth and another match, taken without its depth.
-  bool canDrawOnePointOneDepth() const { return !with_depth_.empty() && rays_.size() > 1; }
-  bool canDrawTwoDepth() const { return with_depth_.size() > 1; }
+  /// Whether there are matches enough for a sample of this kind.
+  bool canDraw(Solver kind) const;
+  /// How many different samples there are.
+  double sampleCount(Solver kind) const;
+  /// Chance that a sample holds no outlier, if these matches are the inliers (increasing indices).
+  double chanceOfInliers(Solver kind, const std::vector<int>& inliers) const;
 
-  /// Each appends the poses of `count` samples.
-  void drawOnePointOneDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const;
-  /// All pairs instead, where there are no more than `count`.
-  void drawTwoDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const;
+  /// Appends the poses of `count` samples; of all pairs with depth instead, where there are no more of them.
+  void draw(Solver kind, int count, Random& random, std::vector<PlanarTransform>& poses) const;
 
  private:
+  void drawOnePointOneDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const;
+  void drawTwoDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const;
+  void drawThreeRays(int count, Random& random, std::vector<PlanarTransform>& poses) const;
+
   std::vector<RayToRay> rays_;  ///< of every match
+  bool has_baseline_ = false;   ///< rays of either side come from two places or more, 1 cm apart
   std::vector<RayToPoint> with_depth_;
   std::vector<int> match_of_depth_;  ///< index of with_depth_'s entries in rays_
 };

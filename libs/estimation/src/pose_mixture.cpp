@@ -13,6 +13,8 @@ std::string_view nameOf(Solver solver) {
       return "1p1dp";
     case Solver::two_depth:
       return "2dp";
+    case Solver::three_rays:
+      return "3p";
     case Solver::automatic:
       break;
   }

@@ -175,6 +175,20 @@ void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose)
   pose.log_evidence = pose.log_likelihood + logPrior(pose) + freedom * std::log(sqrt_2pi) + 0.5 * log_determinant;
 }
 
+double PoseRefiner::inlierRate(const RefinedPose& pose) const {
+  constexpr double prior_matches = 15;
+  const auto& p = *likelihood_.prepared_;
+  std::vector<double> ratios;
+  p.visit(pose.rigid(), [&](int, const MatchResidual& residual) { ratios.push_back(residual.likelihood_ratio); });
+  double rate = p.options.inlier_prior;
+  for (int i = 0; i < 20; ++i) {
+    double inliers = prior_matches * p.options.inlier_prior;
+    for (const double ratio : ratios) inliers += responsibility(ratio, rate);
+    rate = inliers / (prior_matches + p.match_count);
+  }
+  return rate;
+}
+
 std::vector<int> PoseRefiner::inliers(const RefinedPose& pose) const {
   const auto& p = *likelihood_.prepared_;
   const double even_ratio = (1 - p.options.inlier_prior) / p.options.inlier_prior;

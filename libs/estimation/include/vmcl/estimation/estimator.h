@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "vmcl/estimation/degeneracy.h"
 #include "vmcl/estimation/likelihood.h"
 #include "vmcl/estimation/pose_mixture.h"
 #include "vmcl/estimation/pose_refiner.h"
@@ -14,8 +16,8 @@ namespace vmcl {
 
 struct EstimatorOptions {
   Solver solver = Solver::automatic;
-  int iterations = 500;  ///< random samples drawn, at least 1
-  uint64_t seed = 1;     ///< same seed, same answer
+  int iterations = 20000;  ///< most random samples drawn, at least 1; easy problems need few
+  uint64_t seed = 1;       ///< same seed, same answer
   LikelihoodOptions likelihood;
   int refined = 20;   ///< best hypotheses that are optimized, at least 1
   int max_modes = 5;  ///< modes reported, at least 1
@@ -25,11 +27,29 @@ struct EstimatorOptions {
   void check() const;
 };
 
+/// Why there is no pose.
+enum class NoPose {
+  none,                  ///< there is one
+  too_few_matches,       ///< fewer than a sample needs
+  no_sample,             ///< no sample gives a pose: all matches degenerate, or without depth and of one reference
+  unconstrained,         ///< matches agree with a pose but do not fix it
+  no_better_than_chance  ///< no pose explains more matches than chance would
+};
+
+/// "", "too_few_matches", ...
+std::string_view nameOf(NoPose failure);
+
 /// The answer: a mixture of Gaussian modes, the heaviest first, each better supported than a pose that fits outliers by
-/// chance. No modes: no pose, and `reason` says why.
+/// chance. No modes: no pose, and `failure` and `reason` say why.
 struct PoseEstimate {
   std::vector<PoseMode> modes;
+  NoPose failure = NoPose::none;
   std::string reason;
+  std::vector<Degeneracy> degeneracies;  ///< of the first mode's inliers
+  double inlier_rate = 0;                ///< share of inliers that the modes were judged with
+  /// Log of how much better the first mode explains the matches with the robot off its plane (0.1 rad, 0.2 m) than as
+  /// SoftPlane allows: over about 5, the data contradict planar motion.
+  double off_plane_log_odds = 0;
 
   bool found() const { return !modes.empty(); }
 };

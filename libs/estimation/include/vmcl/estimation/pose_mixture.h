@@ -9,10 +9,11 @@
 
 namespace vmcl {
 
-/// Which minimal samples are drawn: one match with depth and one without (1P1DP), two with depth (2DP), or both kinds.
-enum class Solver { automatic, one_point_one_depth, two_depth };
+/// Which minimal samples are drawn: one match with depth and one without (1P1DP), two with depth (2DP), three without
+/// depth that see two references or more, or, by choice of the matches, the first two kinds or else the third.
+enum class Solver { automatic, one_point_one_depth, two_depth, three_rays };
 
-/// "auto", "1p1dp" or "2dp".
+/// "auto", "1p1dp", "2dp" or "3p".
 std::string_view nameOf(Solver solver);
 
 /// A place where the robot may be: one peak of the likelihood, or several close together.

@@ -51,6 +51,9 @@ class PoseRefiner {
   };
   Linearization linearize(const RefinedPose& pose) const;
 
+  /// Share of inliers among the matches as this pose shows it, weighed with the prior's as if of 15 more matches.
+  double inlierRate(const RefinedPose& pose) const;
+
   /// Matches more likely inlier than outlier, by increasing index.
   std::vector<int> inliers(const RefinedPose& pose) const;
 
