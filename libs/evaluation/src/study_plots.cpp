@@ -108,8 +108,9 @@ void drawAccuracy(const std::filesystem::path& directory, const StudyPicture& ce
                     [&](double x, const MethodSummary& row) { return errorPoint(x, row.distance, shown(x, row), 1); }));
   commands << "set key at screen 0.99,0.9 right top vertical spacing 1.3\n";
   plotLines(commands, "heading", {"", "image noise [px]", "heading error, RMS [deg]", ""},
-            linesOf(cells, noise, shift, 1,
-                    [&](double x, const MethodSummary& row) { return errorPoint(x, row.angle, shown(x, row), 1 / degree); }));
+            linesOf(cells, noise, shift, 1, [&](double x, const MethodSummary& row) {
+              return errorPoint(x, row.angle, shown(x, row), 1 / degree);
+            }));
   drawSvg(directory / ("accuracy_" + fileSuffix(world) + ".svg"), "1300,560", commands.str());
 }
 

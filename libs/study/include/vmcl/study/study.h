@@ -25,8 +25,8 @@ enum class Figure {
 std::string_view nameOf(Figure figure);
 
 /// An estimate is a success when it is nearer to the truth than both.
-inline constexpr double success_distance = 0.1;              ///< m
-inline constexpr double success_angle = 1 * EIGEN_PI / 180;  ///< rad
+inline constexpr double success_distance = 0.1;      ///< m
+inline constexpr double success_angle = 1 * degree;  ///< rad
 
 /// One point of a figure: trials of one kind of world.
 struct StudyCell {
@@ -62,8 +62,7 @@ struct MethodOutcome {
 
 struct TrialResult {
   std::vector<MethodOutcome> outcomes;  ///< in the order of methodsOf(), then the likelihood optimized from the truth
-  std::optional<EstimationError>
-      cramer_rao;  ///< root of the traces of the bound; nothing: the inliers do not fix the pose
+  std::optional<EstimationError> cramer_rao;  ///< roots of the bound's traces; nothing: inliers do not fix the pose
 };
 
 /// Draws the trial's problem and lets each method solve it. The same arguments give the same result, but for seconds.
