@@ -4,8 +4,10 @@
 #define HWY_DISABLED_TARGETS HWY_SSSE3  // as the library does
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -168,6 +170,23 @@ TEST_P(ManyPoses, AnyNumberOfPosesAndMatches) {
   std::vector<double> value{1};
   PoseLikelihood(empty, {}).evaluate(std::vector{PlanarTransform()}, value);
   EXPECT_EQ(value[0], 0);
+}
+
+// So that threads may share the poses out as they like.
+TEST_P(ManyPoses, ValuesDoNotDependOnTheOtherPoses) {
+  Random random(57);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Scene scene = randomScene(random, {.cameras = 2, .matches = 300, .outlier_rate = 0.5, .noise_px = 2});
+    const PoseLikelihood likelihood(scene.problem, {});
+    const std::vector<PlanarTransform> poses = posesAround(scene.map_from_robot, random, 50);
+    std::vector<double> together(poses.size()), apart(poses.size());
+    likelihood.evaluate(poses, together);
+    for (std::size_t first = 0, size = 1; first < poses.size(); first += size, ++size) {
+      size = std::min(size, poses.size() - first);
+      likelihood.evaluate(std::span(poses).subspan(first, size), std::span(apart).subspan(first, size));
+    }
+    EXPECT_EQ(together, apart);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, ManyPoses, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),

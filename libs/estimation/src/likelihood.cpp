@@ -78,7 +78,7 @@ double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
     sum += std::log(product);
     product = 1;
   };
-  p.visit(map_from_robot, addRatio);
+  p.visit<false>(map_from_robot, addRatio);
   return sum + std::log(product);
 }
 

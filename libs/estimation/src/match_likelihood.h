@@ -144,6 +144,8 @@ class RayView {
     parallax_.noalias() = pixel_from_map_ * (reference.map_from_camera.translation() - map_from_camera.translation());
   }
 
+  /// Without derivatives, only the likelihood ratio.
+  template <bool with_derivatives>
   void evaluate(const Eigen::Vector2d& query_pixel, const Eigen::Vector2d& reference_pixel,
                 MatchResidual& result) const {
     result.likelihood_ratio = 0;
@@ -172,6 +174,7 @@ class RayView {
     const double described = described_share * describedDensity(rho, rho_variance);
     const double anywhere = (1 - described_share) * anywhereDensity(rho_variance, by_rho.squaredNorm());
     result.likelihood_ratio *= nearFade(h.z() - rho * min_depth) * (described + anywhere);
+    if (!with_derivatives) return;
     weigh(S, by_rho, rho, rho_variance, described / (described + anywhere), result);
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_z;
     result.arm = map_from_reference_pixel_ * reference_pixel.homogeneous() + rho * reference_from_robot_;

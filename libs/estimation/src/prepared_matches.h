@@ -25,8 +25,9 @@ struct PoseLikelihood::Prepared {
   int match_count = 0;
   std::optional<LikelihoodTerms> terms;  ///< for many planar poses at once
 
-  /// Evaluates every match at one pose: on_match(index, residual) for those that the pose explains at all.
-  template <class OnMatch>
+  /// Evaluates every match at one pose: on_match(index, residual) for those that the pose explains at all. Without
+  /// derivatives, the residual holds only the likelihood ratio.
+  template <bool with_derivatives = true, class OnMatch>
   void visit(const Rigid3& map_from_robot, OnMatch&& on_match) const {
     MatchResidual residual;
     for (const PointGroup& group : point_groups) {
@@ -42,7 +43,7 @@ struct PoseLikelihood::Prepared {
                          reference_cameras[static_cast<std::size_t>(group.reference)], map_from_robot, options,
                          inverse_depth_prior);
       for (std::size_t i = 0; i < group.query_pixel.size(); ++i) {
-        view.evaluate(group.query_pixel[i], group.reference_pixel[i], residual);
+        view.template evaluate<with_derivatives>(group.query_pixel[i], group.reference_pixel[i], residual);
         residual.likelihood_ratio /= group.outlier_density[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }

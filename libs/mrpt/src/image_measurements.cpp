@@ -2,7 +2,7 @@
 #include "vmcl/mrpt/image_measurements.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/query_image.h"
@@ -15,9 +15,24 @@ constexpr std::size_t remembered = 16;  // images: more than the cameras of a ro
 }  // namespace
 
 double ImageMeasurement::logLikelihood(const PlanarPose& robot_in_map) const {
-  if (!likelihood || !isFinite(robot_in_map)) return 0;
-  const double value = match_weight * (*likelihood)(robot_in_map);
-  return std::isfinite(value) ? value : 0;
+  double value = 0;
+  addLogLikelihoods({&robot_in_map, 1}, {&value, 1});
+  return value;
+}
+
+void ImageMeasurement::addLogLikelihoods(std::span<const PlanarPose> robot_in_map,
+                                         std::span<double> log_likelihoods) const {
+  if (!likelihood) return;
+  constexpr std::size_t block = 64;
+  std::array<PlanarTransform, block> poses;
+  std::array<double, block> values;
+  for (std::size_t first = 0; first < robot_in_map.size(); first += block) {
+    const auto some = robot_in_map.subspan(first, std::min(block, robot_in_map.size() - first));
+    for (std::size_t i = 0; i < some.size(); ++i) poses[i] = PlanarTransform(some[i]);
+    likelihood->evaluate({poses.data(), some.size()}, {values.data(), some.size()});
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (isFinite(some[i])) log_likelihoods[first + i] += match_weight * values[i];
+  }
 }
 
 ImageMeasurements::ImageMeasurements(std::shared_ptr<const KeyframeMap> map, const VisualMapOptions& options)

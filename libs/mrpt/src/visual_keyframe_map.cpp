@@ -190,8 +190,8 @@ double VisualKeyframeMap::addLogLikelihoods(const mrpt::obs::CObservation& obser
   if (!measurement || !measurement->likelihood) return 0;
   const std::size_t count = robot_in_map.size(), workers = static_cast<std::size_t>(threads);
   const auto weigh = [&](std::size_t worker) {
-    for (std::size_t i = count * worker / workers; i < count * (worker + 1) / workers; ++i)
-      log_likelihoods[i] += measurement->logLikelihood(robot_in_map[i]);
+    const std::size_t first = count * worker / workers, size = count * (worker + 1) / workers - first;
+    measurement->addLogLikelihoods(robot_in_map.subspan(first, size), log_likelihoods.subspan(first, size));
   };
   std::vector<std::jthread> others;
   others.reserve(workers);

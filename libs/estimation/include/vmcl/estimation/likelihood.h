@@ -46,8 +46,8 @@ class PoseLikelihood {
   /// L with the robot tilted or lifted off the ground plane.
   double operator()(const Rigid3& map_from_robot) const;
 
-  /// L at many poses, vectorized: the same to 1e-4 at tens of times the speed, for sampling and particles. Throws
-  /// std::invalid_argument when the sizes differ. Thread safe.
+  /// L at many poses, vectorized: the same to 1e-4 at tens of times the speed, for sampling and particles. No value
+  /// depends on the other poses. Throws std::invalid_argument when the sizes differ. Thread safe.
   void evaluate(std::span<const PlanarTransform> map_from_robot, std::span<double> log_likelihoods) const;
 
   int matchCount() const;

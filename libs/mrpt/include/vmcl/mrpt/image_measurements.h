@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "vmcl/estimation/likelihood.h"
@@ -24,6 +25,9 @@ struct ImageMeasurement {
 
   /// Weighted log likelihood; 0 when the image says nothing.
   double logLikelihood(const PlanarPose& robot_in_map) const;
+
+  /// Adds it at many poses; sizes must agree.
+  void addLogLikelihoods(std::span<const PlanarPose> robot_in_map, std::span<double> log_likelihoods) const;
 
   double independentMatches() const { return match_weight * static_cast<double>(problem.matches.size()); }
 };
