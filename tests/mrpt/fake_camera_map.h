@@ -21,7 +21,9 @@ class FakeCameraMap : public FakeMap, public RelocalizingMap {
   }
   PoseEstimate relocalize(const mrpt::obs::CObservation&, uint64_t seed) const override {
     seeds.push_back(seed);
-    return {{}, "nothing"};
+    PoseEstimate nothing;
+    nothing.failure = NoPose::no_better_than_chance;
+    return nothing;
   }
   void extend(PoseBox&) const override {}
 
