@@ -24,8 +24,8 @@ PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodO
       query_cameras(problem.query_cameras),
       reference_cameras(problem.reference_cameras),
       match_count(static_cast<int>(problem.matches.size())) {
-  const std::vector<double> outlier_density =
-      options.level_outliers ? outlierDensity(problem) : std::vector<double>(problem.matches.size(), 1);
+  const std::vector<double> outlier_density = options.level_outliers ? outlierDensity(problem, options.inlier_prior)
+                                                                     : std::vector<double>(problem.matches.size(), 1);
   std::map<int, PointGroup> points;
   std::map<std::pair<int, int>, RayGroup> rays;
   for (int i = 0; i < match_count; ++i) {

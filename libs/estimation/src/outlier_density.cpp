@@ -35,8 +35,8 @@ ElevationChange elevationChange(const PoseProblem& problem, const Match& match) 
 
 }  // namespace
 
-std::vector<double> outlierDensity(const PoseProblem& problem) {
-  constexpr double max_share = 0.9;     // some outliers lie anywhere
+std::vector<double> outlierDensity(const PoseProblem& problem, double inlier_prior) {
+  constexpr double max_share = 0.9;     // some matches lie anywhere
   constexpr double pseudo_matches = 4;  // that stand for share and spread before any match is seen
   std::vector<ElevationChange> changes;
   for (const Match& match : problem.matches) changes.push_back(elevationChange(problem, match));
@@ -56,6 +56,8 @@ std::vector<double> outlierDensity(const PoseProblem& problem) {
     share = std::min(max_share, count / (pseudo_matches + static_cast<double>(changes.size())));
     spread = std::sqrt(sum_of_squares / count);
   }
+  // The inliers are level as well: of those that are left, fewer are.
+  share = std::max(0.0, (share - inlier_prior) / (1 - inlier_prior));
   std::transform(changes.begin(), changes.end(), density.begin(),
                  [&](const ElevationChange& c) { return share * level(c) + 1 - share; });
   return density;

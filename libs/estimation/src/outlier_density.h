@@ -13,7 +13,7 @@ namespace vmcl {
 /// matches of a level world (repeated structure, things that moved) still agree in elevation, and many do so by chance
 /// with any epipolar geometry. Outliers are a mixture of such, whose elevations in both images differ by a
 /// log-normal factor, and of uniform ones; the share of the former and the spread of the factor are estimated from
-/// the matches by expectation maximization.
-std::vector<double> outlierDensity(const PoseProblem& problem);
+/// the matches by expectation maximization, the share less that of the inliers, which are level, too.
+std::vector<double> outlierDensity(const PoseProblem& problem, double inlier_prior);
 
 }  // namespace vmcl
