@@ -63,9 +63,9 @@ int run(const BenchOptions& options) {
     study.cells.push_back(runCell(cell, options));
   }
   writeStudyTables(options.output, study);
-  drawStudy(options.output, study);
   printMethods(std::cout);
   printStudy(std::cout, study);
+  drawStudy(options.output, study);
   return exit_done;
 }
 
@@ -85,8 +85,10 @@ void addBenchVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--figures", options->figures, "accuracy, success, cost-matches, cost-cameras")
       ->transform(CLI::CheckedTransformer(figures))
       ->delimiter(',')
-      ->default_str("all");
-  verb->add_option("--seed", options->seed, "same seed, same results but for the times")->capture_default_str();
+      ->default_str("all of them");
+  verb->add_option("--seed", options->seed, "same seed, same results but for the times")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   verb->add_option("--threads", options->threads, "trials worked on at once; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->default_str("one a processor");

@@ -67,7 +67,7 @@ class BenchTest(CommandTest):
     def test_wrong_usage(self):
         self.assert_refused(['bench'], '--output')
         for option, value in (('--trials', '0'), ('--trials', 'x'), ('--threads', '0'), ('--figures', 'all-of-them'),
-                              ('--seed', 'x')):
+                              ('--seed', 'x'), ('--seed', '-1')):
             with self.subTest(option=option, value=value):
                 self.assert_refused(['bench', '-o', 'out', option, value], option)
 

@@ -99,6 +99,22 @@ Scene tiltedScene(Random& random, double tilt) {
 }
 
 // Without the soft plane about half are found; with it 95 %. Fewer than 40 of 50: a false alarm in 10,000.
+TEST(Estimator, FewSamplesAreSharedByTheKinds) {
+  Random random(77);
+  Scene scene = randomScene(random, {.matches = 50, .depth_rate = 1});
+  for (std::size_t i = 0; i < scene.problem.matches.size(); ++i) {
+    Match& match = scene.problem.matches[i];
+    if (i >= 2) match.point.reset();
+  }
+  scene.problem.matches[1].point->point_in_map.x() += 3;  // the one pair with depth is wrong
+  EstimatorOptions options;
+  options.iterations = 100;
+  const PoseEstimate estimate = estimatePose(scene.problem, options);
+  ASSERT_TRUE(estimate.found());
+  EXPECT_EQ(estimate.modes.front().solver, Solver::one_point_one_depth);
+  EXPECT_LT(difference(estimate.modes.front().robot_in_map, scene.map_from_robot).norm(), 0.05);
+}
+
 TEST(Estimator, SoftPlaneBearsHalfADegreeOfTilt) {
   Random random(56);
   EstimatorOptions options;

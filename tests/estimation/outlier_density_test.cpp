@@ -40,5 +40,21 @@ TEST(OutlierDensity, LevelOutliersLessenTheWorthOfAMatchNearTheHorizon) {
   EXPECT_NEAR(worthOfAMatch(uniform, near_horizon), worthOfAMatch(uniform, far_above), 1.5);
 }
 
+TEST(OutlierDensity, IsFiniteAtTheZenith) {
+  Rigid3 to_ceiling = Rigid3::Identity();
+  PoseProblem problem;
+  problem.query_cameras.push_back({test_camera, to_ceiling});
+  problem.reference_cameras.push_back({test_camera, to_ceiling});
+  const Eigen::Vector2d zenith(test_camera.cx, test_camera.cy), beside(test_camera.cx + 1, test_camera.cy);
+  for (const Eigen::Vector2d& pixel : {zenith, beside}) problem.matches.push_back({0, pixel, 0, {100, 200}, {}});
+  problem.matches.push_back({0, {300, 400}, 0, zenith, {}});
+  const PoseLikelihood likelihood(problem, {});
+  const std::vector<PlanarTransform> poses{PlanarTransform(PlanarPose{0.1, 0.2, 0.3})};
+  std::vector<double> many(1);
+  likelihood.evaluate(poses, many);
+  EXPECT_TRUE(std::isfinite(many[0]));
+  EXPECT_NEAR(many[0], likelihood(poses[0]), 1e-4);
+}
+
 }  // namespace
 }  // namespace vmcl

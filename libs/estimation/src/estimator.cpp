@@ -54,6 +54,7 @@ class Search {
   Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
       : sampler_(problem), likelihood_(likelihood), refiner_(likelihood, {}), random_(options.seed) {
     for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
+    if (kinds_.size() > 1) at_first_ = std::clamp(options.iterations / static_cast<int>(kinds_.size()), 1, at_first_);
     int left = options.iterations;
     for (bool drew = !kinds_.empty(); drew && left > 0;) {
       drew = false;
@@ -86,13 +87,12 @@ class Search {
   /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than so many that hardly a
   /// possible sample is left out.
   int samplesWanted(const Kind& kind) const {
-    constexpr int at_first = 250;
     constexpr double miss = 1e-3, coverage = 3;
-    if (kind.drawn == 0) return at_first;
+    if (kind.drawn == 0) return at_first_;
     const double different = sampler_.sampleCount(kind.solver);
     const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
     const double needed = std::min(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)), coverage * different);
-    return different <= at_first ? 0 : static_cast<int>(std::min(std::ceil(needed) - kind.drawn, 1.0 * kind.drawn));
+    return different <= at_first_ ? 0 : static_cast<int>(std::min(std::ceil(needed) - kind.drawn, 1.0 * kind.drawn));
   }
 
   void draw(Kind& kind, int count) {
@@ -120,6 +120,7 @@ class Search {
   PoseRefiner refiner_;
   Random random_;
   std::vector<Kind> kinds_;
+  int at_first_ = 250;  ///< samples of each kind before any rule
   std::vector<Hypothesis> hypotheses_;
   std::vector<double> scores_;
   double best_score_ = -std::numeric_limits<double>::infinity();
@@ -246,7 +247,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   estimate.inlier_rate = as_seen.inlier_prior;
   const PoseMode& best = estimate.modes.front();
   estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
-  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, final_peaks.front().pose);
+  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner.refine(PlanarTransform(best.robot_in_map)));
   return estimate;
 }
 

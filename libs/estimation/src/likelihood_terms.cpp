@@ -11,6 +11,7 @@ namespace vmcl {
 namespace {
 
 constexpr double reach = 1e6;      // m, pixels over sigma: fourth powers are within single precision
+constexpr double widest = 1e3;     // m on the ground: rounding stays below a millimetre
 constexpr double gate_room = 1.1;  // of a gate's cutoff, for rounding
 
 using Row3 = Eigen::RowVector3d;
@@ -185,7 +186,7 @@ std::optional<LikelihoodTerms> likelihoodTerms(const PoseProblem& problem, const
   for (const Eigen::Vector2d& place : all) result.origin += place / static_cast<double>(all.size());
   double extent = 0;
   for (const Eigen::Vector2d& place : all) extent = std::max(extent, (place - result.origin).norm());
-  if (!(extent < reach)) return std::nullopt;
+  if (!(extent < widest)) return std::nullopt;
 
   double least_density = 1;
   const auto addDensities = [&](const auto& groups) {
@@ -210,7 +211,7 @@ std::optional<LikelihoodTerms> likelihoodTerms(const PoseProblem& problem, const
 }
 
 bool isWithinReach(const LikelihoodTerms& terms, const PlanarTransform& pose) {
-  return std::abs(pose.x - terms.origin.x()) < reach && std::abs(pose.y - terms.origin.y()) < reach &&
+  return std::abs(pose.x - terms.origin.x()) < widest && std::abs(pose.y - terms.origin.y()) < widest &&
          std::abs(pose.c * pose.c + pose.s * pose.s - 1) < 1e-9;
 }
 

@@ -104,8 +104,6 @@ class PointOdds {
 /// Of matches without depth between one query and one reference camera.
 class RayOdds {
  public:
-  using Term = RayTerm;
-
   HWY_INLINE RayOdds(const RayTerms& group, const Poses& poses) : group_(group), poses_(poses) {
     poses.fine.toRobot(all(group.reference.x()) - poses.fine.x, all(group.reference.y()) - poses.fine.y, reference_x_,
                        reference_y_);
@@ -157,12 +155,13 @@ class RayOdds {
     const Float D_01 = negMulAdd(pixel_u, homography_[2][1], homography_[0][1]);
     const Float D_10 = negMulAdd(pixel_v, homography_[2][0], homography_[1][0]);
     const Float D_11 = negMulAdd(pixel_v, homography_[2][1], homography_[1][1]);
-    const Float S_00 = depth2 + squaredNorm(D_00, D_01), S_11 = depth2 + squaredNorm(D_10, D_11);
-    const Float S_01 = mulAdd(D_00, D_10, D_01 * D_11);
-    const Float inverse_determinant = all(1.0f) / negMulAdd(S_01, S_01, S_00 * S_11);
+    // Its determinant and inverse as sums of squares: differences would cancel where D is nearly singular.
+    const Float D_determinant = negMulAdd(D_01, D_10, D_00 * D_11);
+    const Float D_norm2 = squaredNorm(D_00, D_01) + squaredNorm(D_10, D_11);
+    const Float inverse_determinant = all(1.0f) / mulAdd(depth2, depth2 + D_norm2, D_determinant * D_determinant);
     const auto distance2 = [&](Float e_u, Float e_v) HWY_ATTR {
-      const Float across = negMulAdd(S_01, e_v, S_11 * e_u), down = negMulAdd(S_01, e_u, S_00 * e_v);
-      return mulAdd(e_u, across, e_v * down) * inverse_determinant;
+      const Float through_D = squaredNorm(negMulAdd(D_10, e_u, D_00 * e_v), negMulAdd(D_11, e_u, D_01 * e_v));
+      return mulAdd(depth2, squaredNorm(e_u, e_v), through_D) * inverse_determinant;
     };
     const Float error2 = distance2(u, v);
     const Float by_rho_u = negMulAdd(error_u, parallax_depth_, parallax_u);

@@ -11,7 +11,8 @@ namespace {
 /// Elevation of a ray on a scale that is linear near the horizon, where pixel noise counts, and logarithmic beyond.
 double elevation(const Eigen::Vector3d& direction) {
   constexpr double horizon = 0.01;
-  return std::asinh(direction.z() / (horizon * direction.head<2>().norm()));
+  constexpr double zenith = 1e-6;  // nearer to it the scale ends
+  return std::asinh(direction.z() / (horizon * std::hypot(direction.head<2>().norm(), zenith * direction.norm())));
 }
 
 /// A match as its elevation in the query image, less that in the reference image.

@@ -133,13 +133,17 @@ CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode
   for (const auto& observation : frame) {
     if (!maps_->canComputeObservationLikelihood(*observation)) continue;
     try {
+      std::vector<PoseMode> found;
+      int found_inliers = 0;
       for (const auto& map : maps_->maps) {
         const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
         if (!relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
         const PoseEstimate estimate = relocalizing->relocalize(*observation, config_.monte_carlo.seed);
-        modes.insert(modes.end(), estimate.modes.begin(), estimate.modes.end());
-        if (estimate.found()) inliers += static_cast<int>(estimate.modes.front().inliers.size());
+        found.insert(found.end(), estimate.modes.begin(), estimate.modes.end());
+        if (estimate.found()) found_inliers += static_cast<int>(estimate.modes.front().inliers.size());
       }
+      modes.insert(modes.end(), found.begin(), found.end());
+      inliers += found_inliers;
       used.insert(observation);
     } catch (const std::exception& error) {
       problems_.push_back(errorMessage(error));

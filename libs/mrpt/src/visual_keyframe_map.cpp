@@ -213,6 +213,7 @@ PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observ
   if (measurement && !measurement->error.empty()) throw std::runtime_error(measurement->error);
   if (!measurement || !measurement->likelihood) {
     PoseEstimate nothing;
+    nothing.failure = NoPose::too_few_matches;
     nothing.reason = "no matches";
     return nothing;
   }
@@ -240,8 +241,10 @@ std::string VisualKeyframeMap::asString() const {
          std::to_string(map ? map->landmarks.size() : 0) + " landmarks";
 }
 
-void VisualKeyframeMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+void VisualKeyframeMap::saveMetricMapRepresentationToFile(const std::string& prefix) const try {
   if (const auto map = contentOrReport()) saveMap(prefix + ".vmap", *map);
+} catch (const std::exception& error) {
+  state_->tell(errorMessage(error));
 }
 
 }  // namespace vmcl

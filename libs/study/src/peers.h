@@ -11,7 +11,7 @@ namespace vmcl {
 /// squared residuals, and local optimization of each best one.
 std::vector<PoseMethod> inlierCountingMethods();
 
-/// EPnP and AP3P in OpenCV's RANSAC, and OpenCV's MAGSAC++.
+/// EPnP and AP3P in OpenCV's RANSAC, and OpenCV's MAGSAC++. Sets OpenCV to one thread, for the whole process.
 std::vector<PoseMethod> openCvMethods();
 
 /// P3P, GP3P and UPnP of OpenGV; none where vmcl was built without it.

@@ -174,7 +174,7 @@ void WorldSettings::check() const {
   require(matches_per_camera >= 2, "matches_per_camera", matches_per_camera);
   require(outlier_rate >= 0 && outlier_rate <= 1, "outlier_rate", outlier_rate);
   require(depth_rate >= 0 && depth_rate <= 1, "depth_rate", depth_rate);
-  require(std::isfinite(noise_px) && noise_px >= 0, "noise_px", noise_px);
+  require(noise_px >= 0 && noise_px <= 100, "noise_px", noise_px);
 }
 
 double depthNoise(World world) { return world == World::authors ? 0.1 : 0.05; }

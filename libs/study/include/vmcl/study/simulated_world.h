@@ -26,7 +26,7 @@ struct WorldSettings {
   int matches_per_camera = 50;  ///< at least 2
   double outlier_rate = 0;      ///< share of each camera's matches, in [0, 1], rounded to whole matches
   double depth_rate = 1;        ///< share of each camera's matches whose depth is reliable, in [0, 1], one at least
-  double noise_px = 2;          ///< standard deviation of a pixel coordinate in either image
+  double noise_px = 2;          ///< standard deviation of a pixel coordinate in either image, at most 100
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
