@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "match_rays.h"
+#include "vmcl/estimation/match_rays.h"
 #include "vmcl/estimation/one_point_one_depth.h"
 
 namespace vmcl {

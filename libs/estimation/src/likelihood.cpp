@@ -83,10 +83,7 @@ double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
 }
 
 double PoseLikelihood::operator()(const PlanarTransform& map_from_robot) const {
-  Rigid3 rigid = Rigid3::Identity();
-  rigid.linear().topLeftCorner<2, 2>() << map_from_robot.c, -map_from_robot.s, map_from_robot.s, map_from_robot.c;
-  rigid.translation().head<2>() << map_from_robot.x, map_from_robot.y;
-  return (*this)(rigid);
+  return (*this)(toRigid3(map_from_robot));
 }
 
 void PoseLikelihood::evaluate(std::span<const PlanarTransform> map_from_robot,

@@ -101,7 +101,7 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
                   double extent) {
   const double sigma = options.sigma_px;
   const Eigen::Matrix3d axes = axesOf(query, sigma), axes_px = axesOf(query, 1);
-  const Eigen::Matrix3d map_from_pixel = reference.map_from_camera.linear() * inverseIntrinsics(reference.camera);
+  const Eigen::Matrix3d map_from_pixel = reference.map_from_camera.linear() * reference.camera.inverseMatrix();
   const double height = reference.map_from_camera.translation().z();
   RayTerms result;
   result.reference = reference.map_from_camera.translation().head<2>() - origin;

@@ -45,18 +45,6 @@ inline double nearFade(double excess_depth) {
   return visible * visible;
 }
 
-inline Eigen::Matrix3d intrinsics(const PinholeCamera& camera) {
-  Eigen::Matrix3d K;
-  K << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
-  return K;
-}
-
-inline Eigen::Matrix3d inverseIntrinsics(const PinholeCamera& camera) {
-  Eigen::Matrix3d K;
-  K << 1 / camera.fx, 0, -camera.cx / camera.fx, 0, 1 / camera.fy, -camera.cy / camera.fy, 0, 0, 1;
-  return K;
-}
-
 /// A match against one pose of the robot. The scene point is X = t + arm / scale, t the robot's position: moving the
 /// robot by dt and turning it about an axis w moves the predicted pixel by pixel_by_point * (arm x w - scale dt).
 struct MatchResidual {
@@ -88,7 +76,7 @@ class PointView {
         area_(double(query.camera.width) * query.camera.height),
         cutoff_(cutoffDistance2(query.camera, options)) {
     const Rigid3 map_from_camera = map_from_robot * query.robot_from_camera;
-    pixel_from_map_.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
+    pixel_from_map_.noalias() = query.camera.matrix() * map_from_camera.linear().transpose();
     offset_ = -pixel_from_map_ * map_from_camera.translation();
   }
 
@@ -138,8 +126,8 @@ class RayView {
         area_(double(query.camera.width) * query.camera.height),
         cutoff_(cutoffDistance2(query.camera, options)) {
     const Rigid3 map_from_camera = map_from_robot * query.robot_from_camera;
-    pixel_from_map_.noalias() = intrinsics(query.camera) * map_from_camera.linear().transpose();
-    map_from_reference_pixel_.noalias() = reference.map_from_camera.linear() * inverseIntrinsics(reference.camera);
+    pixel_from_map_.noalias() = query.camera.matrix() * map_from_camera.linear().transpose();
+    map_from_reference_pixel_.noalias() = reference.map_from_camera.linear() * reference.camera.inverseMatrix();
     pixel_from_reference_pixel_.noalias() = pixel_from_map_ * map_from_reference_pixel_;
     parallax_.noalias() = pixel_from_map_ * (reference.map_from_camera.translation() - map_from_camera.translation());
   }

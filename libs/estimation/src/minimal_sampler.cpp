@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "match_rays.h"
 #include "three_rays.h"
 #include "vmcl/estimation/depth_points.h"
+#include "vmcl/estimation/match_rays.h"
 #include "vmcl/estimation/one_point_one_depth.h"
 
 namespace vmcl {

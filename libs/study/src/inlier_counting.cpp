@@ -6,6 +6,7 @@
 #include "peers.h"
 #include "truncated_residuals.h"
 #include "vmcl/estimation/depth_points.h"
+#include "vmcl/estimation/match_rays.h"
 #include "vmcl/estimation/one_point_one_depth.h"
 #include "vmcl/geometry/random.h"
 
@@ -42,17 +43,12 @@ struct SolverMatches {
 
   explicit SolverMatches(const PoseProblem& problem) {
     for (const Match& match : problem.matches) {
-      const QueryCamera& query = problem.query_cameras[static_cast<std::size_t>(match.query_camera)];
-      const ReferenceCamera& reference = problem.reference_cameras[static_cast<std::size_t>(match.reference_camera)];
-      const Ray ray_in_robot{query.robot_from_camera.translation(),
-                             query.robot_from_camera.linear() * query.camera.ray(match.query_pixel)};
-      const Ray ray_in_map{reference.map_from_camera.translation(),
-                           reference.map_from_camera.linear() * reference.camera.ray(match.reference_pixel)};
+      const RayToRay rays = raysOfMatch(problem, match);
       if (match.point) {
         index_of_depth.push_back(static_cast<uint32_t>(all.size()));
-        with_depth.push_back({ray_in_robot, match.point->point_in_map});
+        with_depth.push_back({rays.ray_in_robot, match.point->point_in_map});
       }
-      all.push_back({ray_in_robot, ray_in_map});
+      all.push_back(rays);
     }
   }
 };

@@ -11,19 +11,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Eigen::Matrix3d intrinsics(const PinholeCamera& camera) {
-  Eigen::Matrix3d K;
-  K << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
-  return K;
-}
-
-Rigid3 toRigid3(const PlanarTransform& pose) {
-  Rigid3 rigid = Rigid3::Identity();
-  rigid.linear().topLeftCorner<2, 2>() << pose.c, -pose.s, pose.s, pose.c;
-  rigid.translation() << pose.x, pose.y, 0;
-  return rigid;
-}
-
 /// x in the query and x' in the reference image of one point fulfil x^T F x' = 0.
 Eigen::Matrix3d fundamentalMatrix(const QueryCamera& query, const ReferenceCamera& reference,
                                   const Rigid3& map_from_robot) {
@@ -31,8 +18,8 @@ Eigen::Matrix3d fundamentalMatrix(const QueryCamera& query, const ReferenceCamer
   const Eigen::Vector3d t = query_from_reference.translation();
   Eigen::Matrix3d cross;
   cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  return intrinsics(query.camera).inverse().transpose() * cross * query_from_reference.linear() *
-         intrinsics(reference.camera).inverse();
+  return query.camera.inverseMatrix().transpose() * cross * query_from_reference.linear() *
+         reference.camera.inverseMatrix();
 }
 
 double sampsonDistance(const Eigen::Matrix3d& F, const Match& match) {

@@ -27,6 +27,20 @@ struct PinholeCamera {
   /// Viewing ray of a pixel with z = 1.
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const { return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1}; }
 
+  /// K: homogeneous pixels of points.
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d K;
+    K << fx, 0, cx, 0, fy, cy, 0, 0, 1;
+    return K;
+  }
+
+  /// K^-1: viewing rays with z = 1 of homogeneous pixels.
+  Eigen::Matrix3d inverseMatrix() const {
+    Eigen::Matrix3d K;
+    K << 1 / fx, 0, -cx / fx, 0, 1 / fy, -cy / fy, 0, 0, 1;
+    return K;
+  }
+
   bool contains(const Eigen::Vector2d& pixel) const {
     return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < width - 0.5 && pixel.y() < height - 0.5;
   }

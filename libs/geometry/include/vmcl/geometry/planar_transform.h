@@ -23,4 +23,11 @@ struct PlanarTransform {
   PlanarPose pose() const { return {x, y, std::atan2(s, c)}; }
 };
 
+inline Rigid3 toRigid3(const PlanarTransform& pose) {
+  Rigid3 rigid = Rigid3::Identity();
+  rigid.linear().topLeftCorner<2, 2>() << pose.c, -pose.s, pose.s, pose.c;
+  rigid.translation() << pose.x, pose.y, 0;
+  return rigid;
+}
+
 }  // namespace vmcl
