@@ -83,7 +83,7 @@ double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
 }
 
 double PoseLikelihood::operator()(const PlanarTransform& map_from_robot) const {
-  return (*this)(toRigid3(map_from_robot));
+  return (*this)(map_from_robot.rigid());
 }
 
 void PoseLikelihood::evaluate(std::span<const PlanarTransform> map_from_robot,

@@ -61,12 +61,20 @@ void MinimalSampler::draw(Solver kind, int count, Random& random, std::vector<Pl
 }
 
 void MinimalSampler::drawOnePointOneDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const {
-  for (int i = 0; i < count; ++i) {
-    const uint32_t depth = random.below(static_cast<uint32_t>(with_depth_.size()));
-    auto other = static_cast<int>(random.below(static_cast<uint32_t>(rays_.size() - 1)));
-    if (other >= match_of_depth_[depth]) ++other;
-    const PlanarRoots roots = solveOnePointOneDepth(with_depth_[depth], rays_[static_cast<std::size_t>(other)]);
+  const auto add = [&](std::size_t depth, std::size_t other) {
+    if (other >= static_cast<std::size_t>(match_of_depth_[depth])) ++other;
+    const PlanarRoots roots = solveOnePointOneDepth(with_depth_[depth], rays_[other]);
     poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
+  };
+  const std::size_t n = with_depth_.size(), others = rays_.size() - 1;
+  if (n * others <= static_cast<std::size_t>(count)) {
+    for (std::size_t depth = 0; depth < n; ++depth)
+      for (std::size_t other = 0; other < others; ++other) add(depth, other);
+    return;
+  }
+  for (int i = 0; i < count; ++i) {
+    const uint32_t depth = random.below(static_cast<uint32_t>(n));
+    add(depth, random.below(static_cast<uint32_t>(others)));
   }
 }
 

@@ -52,7 +52,7 @@ TruncatedResiduals::TruncatedResiduals(const PoseProblem& problem, bool with_dep
 
 void TruncatedResiduals::evaluate(const PlanarTransform& map_from_robot, Residuals& residuals) const {
   residuals.clear();
-  const Rigid3 rigid = toRigid3(map_from_robot);
+  const Rigid3 rigid = map_from_robot.rigid();
   int query_camera = -1, reference_camera = -1;
   Rigid3 camera_from_map = Rigid3::Identity();
   for (const Match* match : with_depth_) {

@@ -21,13 +21,13 @@ struct PlanarTransform {
       : c(std::cos(pose.phi)), s(std::sin(pose.phi)), x(pose.x), y(pose.y) {}
 
   PlanarPose pose() const { return {x, y, std::atan2(s, c)}; }
-};
 
-inline Rigid3 toRigid3(const PlanarTransform& pose) {
-  Rigid3 rigid = Rigid3::Identity();
-  rigid.linear().topLeftCorner<2, 2>() << pose.c, -pose.s, pose.s, pose.c;
-  rigid.translation() << pose.x, pose.y, 0;
-  return rigid;
-}
+  Rigid3 rigid() const {
+    Rigid3 rigid = Rigid3::Identity();
+    rigid.linear().topLeftCorner<2, 2>() << c, -s, s, c;
+    rigid.translation() << x, y, 0;
+    return rigid;
+  }
+};
 
 }  // namespace vmcl
