@@ -74,18 +74,24 @@ int run(const BenchOptions& options) {
 void addBenchVerb(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* verb = app.add_subcommand("bench", "Repeat the simulation study of the paper, beside other methods");
-  static const std::map<std::string, Figure> figures{{"accuracy", Figure::accuracy},
-                                                     {"success", Figure::success},
-                                                     {"cost-matches", Figure::cost_of_matches},
-                                                     {"cost-cameras", Figure::cost_of_cameras}};
+  static const std::map<std::string, std::vector<Figure>> figures{{"all", options->figures},
+                                                                  {"accuracy", {Figure::accuracy}},
+                                                                  {"success", {Figure::success}},
+                                                                  {"cost-matches", {Figure::cost_of_matches}},
+                                                                  {"cost-cameras", {Figure::cost_of_cameras}}};
   verb->add_option("-o,--output", options->output, "directory for tables and pictures")->required();
   verb->add_option("--trials", options->trials, "simulated problems of each cell of a figure; 200 for sharp intervals")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  verb->add_option("--figures", options->figures, "accuracy, success, cost-matches, cost-cameras")
-      ->transform(CLI::CheckedTransformer(figures))
+  const auto choose = [options](const std::vector<std::string>& names) {
+    options->figures.clear();
+    for (const std::string& name : names)
+      for (const Figure figure : figures.at(name)) options->figures.push_back(figure);
+  };
+  verb->add_option_function<std::vector<std::string>>("--figures", choose, "those to repeat, separated by commas")
+      ->check(CLI::IsMember(figures))
       ->delimiter(',')
-      ->default_str("all of them");
+      ->default_str("all");
   verb->add_option("--seed", options->seed, "same seed, same results but for the times")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

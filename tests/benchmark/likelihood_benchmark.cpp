@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time of the likelihood per match and pose (the inverse of items_per_second): one pose at a time, and many at once on
 // each instruction set that this machine has. Near: particles about the truth; far: hypotheses anywhere.
+#include "instruction_sets.h"
+
 #include <benchmark/benchmark.h>
-#define HWY_DISABLED_TARGETS HWY_SSSE3  // as the library does
 #include <hwy/highway.h>
 
 #include <string>

@@ -51,7 +51,7 @@ class BenchTest(CommandTest):
             self.assertIn('without OpenGV', printed)
 
     def test_pictures(self):
-        files = self.bench('out', '--trials', 1, '--threads', 2)[1]
+        files = self.bench('out', '--trials', 1, '--threads', 2, '--figures', 'all')[1]
         pictures = {name for name in files if name.endswith('.svg')}
         self.assertEqual(len(pictures), 10, pictures)
         for name in pictures:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PoseLikelihood::evaluate against the likelihood of one pose, on every instruction set that this machine has.
+#include "instruction_sets.h"
+
 #include <gtest/gtest.h>
-#define HWY_DISABLED_TARGETS HWY_SSSE3  // as the library does
 #include <hwy/highway.h>
 
 #include <algorithm>

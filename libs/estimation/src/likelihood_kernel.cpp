@@ -3,8 +3,9 @@
 // sifted out in single precision. The residuals of the others are small differences of large numbers and taken in
 // double precision, what follows from them in single.
 
+#include "instruction_sets.h"
+
 // Compiled once for each instruction set, the portable one included; the best for the machine is chosen when it runs.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "likelihood_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep

@@ -10,8 +10,8 @@ namespace {
 
 /// Elevation of a ray on a scale that is linear near the horizon, where pixel noise counts, and logarithmic beyond.
 double elevation(const Eigen::Vector3d& direction) {
-  constexpr double horizon = 0.01;
-  constexpr double zenith = 1e-6;  // nearer to it the scale ends
+  constexpr double horizon = 0.01;  // slope up to which the scale is linear
+  constexpr double zenith = 1e-6;   // nearer to it the scale ends
   return std::asinh(direction.z() / (horizon * std::hypot(direction.head<2>().norm(), zenith * direction.norm())));
 }
 
@@ -37,18 +37,21 @@ ElevationChange elevationChange(const PoseProblem& problem, const Match& match) 
 }  // namespace
 
 std::vector<double> outlierDensity(const PoseProblem& problem, double inlier_prior) {
+  constexpr double prior_share = 0.5;   // before any match is seen
+  constexpr double prior_spread = 0.7;  // likewise, of the factor's logarithm: half or twice is one deviation
+  constexpr double pseudo_matches = 4;  // that stand for both priors
   constexpr double max_share = 0.9;     // some matches lie anywhere
-  constexpr double pseudo_matches = 4;  // that stand for share and spread before any match is seen
+  constexpr int iterations = 10;        // of expectation maximization
   std::vector<ElevationChange> changes;
   for (const Match& match : problem.matches) changes.push_back(elevationChange(problem, match));
-  double share = 0.5, spread = 0.7;
+  double share = prior_share, spread = prior_spread;
   std::vector<double> density(changes.size(), 1);
   const auto level = [&](const ElevationChange& c) {
     const double z = c.change / spread;
     return std::exp(-0.5 * z * z) / (spread * std::sqrt(2 * std::numbers::pi)) * c.per_image;
   };
-  for (int iteration = 0; iteration < 10; ++iteration) {
-    double count = pseudo_matches * 0.5, sum_of_squares = count * 0.7 * 0.7;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    double count = pseudo_matches * prior_share, sum_of_squares = count * prior_spread * prior_spread;
     for (const ElevationChange& c : changes) {
       const double of_level = share * level(c), responsibility = of_level / (of_level + 1 - share);
       count += responsibility;
