@@ -1,46 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "problem_report.h"
-#include "progress_bar.h"
+#include "replay.h"
 #include "verbs.h"
-#include "vmcl/datasets/rawlog_reader.h"
 #include "vmcl/evaluation/localization_picture.h"
 #include "vmcl/evaluation/localization_report.h"
-#include "vmcl/mrpt/error_message.h"
 
 namespace vmcl {
 namespace {
 
 struct Request {
   std::filesystem::path config;
+  IniChanges changes;
   std::vector<std::filesystem::path> maps;
   std::filesystem::path rawlog;
   std::filesystem::path out;
   std::filesystem::path ground_truth;
+  std::string start;
+  std::vector<double> kidnapping;  ///< at, skip; or empty
   uint64_t seed = 1;
   int threads = 1;
+  bool tables_only = false;
 };
 
-/// Runs through the log; returns what was wrong with it.
-ProblemReport replay(Localizer& localizer, const std::filesystem::path& rawlog, LocalizationRun& run) {
-  ProblemReport problems;
-  RawlogReader reader(rawlog);
-  ProgressBar bar;
-  RawlogEntry entry;
-  try {
-    while (reader.next(entry)) {
-      bar.update("localizing", reader.progress());
-      if (const auto frame = localizer.step(entry.action, entry.frame, entry.observation)) run.frames.push_back(*frame);
-      for (const std::string& problem : localizer.takeProblems()) problems.add(rawlog.string() + ": " + problem);
-    }
-  } catch (const std::runtime_error& error) {
-    if (run.frames.empty()) throw;
-    problems.add(errorMessage(error));
-  }
-  return problems;
+/// The robot stands about where it truly is when the log begins, as when a user says where.
+void startNearTruth(const Trajectory& ground_truth, LocalizationConfig& config, Replay& replay) {
+  constexpr double reach = 0.2, turn = 10 * degree;
+  replay.begin = firstCoveredTime(replay.rawlog, ground_truth);
+  const PlanarPose pose = planarPart(*ground_truth.at(replay.begin));
+  config.start = {pose.x - reach, pose.x + reach, pose.y - reach, pose.y + reach, pose.phi - turn, pose.phi + turn};
+  config.start_in_free_space = false;
 }
 
 void printSummary(const LocalizationRun& run) {
@@ -68,31 +62,40 @@ void printSummary(const LocalizationRun& run) {
               << " deg; false accepts " << evaluation.false_accepts << '\n';
 }
 
-void writeAll(const std::filesystem::path& directory, const LocalizationRun& run, const Localizer& localizer) {
+void writeAll(const std::filesystem::path& directory, bool tables_only, const LocalizationRun& run,
+              const Localizer& localizer) {
   std::filesystem::create_directories(directory);
   writeTrajectory(directory / "trajectory.tum", run.frames);
   writeFrames(directory / "frames.csv", run.frames);
   writeTiming(directory / "timing.csv", run.frames);
   writeSummary(directory / "summary.json", run);
+  if (tables_only) return;
   writeScene(directory / "scene.3Dscene", run, localizer);
   drawPath(directory / "path", run, localizer.maps());
 }
 
 int localize(const Request& request) {
-  LocalizationConfig config = loadLocalizationConfig(request.config, request.maps, request.rawlog);
+  if (request.start == "given" && request.ground_truth.empty())
+    throw CLI::RequiresError("--start given", "--groundtruth");
+  LocalizationConfig config = loadLocalizationConfig(request.config, request.maps, request.rawlog, request.changes);
   config.monte_carlo.seed = request.seed;
   config.monte_carlo.threads = request.threads;
+  config.start_anywhere = request.start == "global";
   LocalizationRun run;
   if (!request.ground_truth.empty()) run.ground_truth = readTumTrajectory(request.ground_truth);
+  Replay plan;
+  plan.rawlog = config.rawlog_file;
+  if (!request.kidnapping.empty()) plan.kidnapping = {request.kidnapping[0], request.kidnapping[1]};
+  if (request.start == "given") startNearTruth(*run.ground_truth, config, plan);
   Localizer localizer(config, loadMaps(config));
-  const ProblemReport problems = replay(localizer, config.rawlog_file, run);
+  const ProblemReport problems = replay(plan, localizer, run);
   if (run.frames.empty())
     throw std::runtime_error(problems.empty()
                                  ? config.rawlog_file.string() + ": no observation that the configured maps can use"
                                  : problems.inOneLine());
   problems.print("localize");
   printSummary(run);
-  if (!request.out.empty()) writeAll(request.out, run, localizer);
+  if (!request.out.empty()) writeAll(request.out, request.tables_only, run, localizer);
   return problems.empty() ? exit_done : exit_some_input_bad;
 }
 
@@ -107,7 +110,23 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--out", request->out,
                    "Directory for trajectory.tum, frames.csv, summary.json, scene.3Dscene, path.svg, path.png and "
                    "timing.csv (the only one that differs between runs of one seed)");
+  verb->add_flag("--tables-only", request->tables_only, "Leave out scene and pictures");
   verb->add_option("--groundtruth", request->ground_truth, "True poses in the map, TUM format, to compare with");
+  verb->add_option("--set", request->changes.values, "SECTION.KEY=VALUE instead of the ini's; may be repeated");
+  static const std::map<std::string, Sensors> sensors(sensors_by_name.begin(), sensors_by_name.end());
+  verb->add_option("--sensors", request->changes.sensors,
+                   "Use only the maps of these: camera, laser, both (some of each) or odometry (none)")
+      ->transform(CLI::CheckedTransformer(sensors));
+  verb->add_option(
+          "--start", request->start,
+          "Instead of the ini's: global (anywhere in the maps) or given (within 0.2 m and 10 deg of the ground "
+          "truth, when it sets in)")
+      ->check(CLI::IsMember({"global", "given"}));
+  verb->add_option(
+          "--kidnap", request->kidnapping,
+          "AT SKIP: carry the robot off AT s after the log's start: the next SKIP s are left out, odometry too")
+      ->expected(2)
+      ->check(CLI::PositiveNumber);
   verb->add_option("--seed", request->seed, "Of everything random: same seed, same results")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

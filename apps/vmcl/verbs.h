@@ -16,6 +16,7 @@ enum ExitCode : int {
 /// the callback throws is printed as one line and ends in exit_failed.
 void addBenchVerb(CLI::App& app, int& exit_code);
 void addEstimateVerb(CLI::App& app, int& exit_code);
+void addEvaluateVerb(CLI::App& app, int& exit_code);
 void addImportVerb(CLI::App& app, int& exit_code);
 void addLocalizeVerb(CLI::App& app, int& exit_code);
 void addMapVerb(CLI::App& app, int& exit_code);

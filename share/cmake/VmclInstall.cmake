@@ -9,5 +9,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/vmclConfigVersion.cmake C
 install(FILES ${PROJECT_BINARY_DIR}/vmclConfig.cmake ${PROJECT_BINARY_DIR}/vmclConfigVersion.cmake
   DESTINATION ${package_dir})
 install(EXPORT vmclTargets NAMESPACE vmcl:: DESTINATION ${package_dir})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/scenes ${PROJECT_SOURCE_DIR}/share/config
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/vmcl)
+foreach(data cluster config experiments scenes)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/${data}
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/vmcl USE_SOURCE_PERMISSIONS)
+endforeach()

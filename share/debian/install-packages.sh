@@ -13,6 +13,7 @@ packages=(
   libopengv-dev # peers of vmcl bench
   # the rest serves the tests and the demo
   libgtest-dev libgmock-dev libbenchmark-dev python3
+  parallel slurm-wlm # share/cluster
   mrpt-apps mrpt-common # the stock pf-localization and its laser demo
 )
 

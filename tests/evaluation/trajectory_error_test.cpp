@@ -3,15 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "straight_drive.h"
+
 namespace vmcl {
 namespace {
-
-/// Ground truth that drives along x at 1 m/s from t = 0 to 10 s.
-Trajectory straightDrive() {
-  std::vector<StampedPose> poses;
-  for (int i = 0; i <= 100; ++i) poses.push_back({i * 0.1, toRigid3({i * 0.1, 0, 0})});
-  return Trajectory(std::move(poses));
-}
 
 /// Estimates every 0.1 s that are off by (0, dy, dphi) from `converged` on and by 3 m before.
 std::vector<TimedEstimate> estimates(double converged, double dy, double dphi) {
@@ -73,7 +68,7 @@ TEST(TrajectoryError, FailureAfterConvergenceIsCounted) {
 }
 
 TEST(TrajectoryError, ConfidentAndWrongIsAFalseAcceptAndNeverConverges) {
-  const auto result = evaluateTrajectory(estimates(2, 0.6, 0), straightDrive());
+  const auto result = evaluateTrajectory(estimates(2, 1.2, 0), straightDrive());
   EXPECT_FALSE(result.time_to_converge);
   EXPECT_EQ(result.false_accepts, 81);
   EXPECT_EQ(result.position_after.rmse, 0);

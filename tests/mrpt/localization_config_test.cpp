@@ -63,6 +63,42 @@ class Ini : public ::testing::Test {
   }
 };
 
+TEST_F(Ini, ValuesCanBeChanged) {
+  const IniChanges changes{{"LocalizationExperiment.particles_count=7", "vmcl.min_share=0.5"}, std::nullopt};
+  const LocalizationConfig config = loadLocalizationConfig(write(), {}, {}, changes);
+  EXPECT_EQ(config.particles_count, 7);
+  EXPECT_EQ(config.localized.min_share, 0.5);
+}
+
+TEST_F(Ini, AChangeThatMeansNothingIsRefused) {
+  for (const char* change : {"particles_count=7", "LocalizationExperiment.particles_count", "", "=",
+                             ".=", "LocalizationExperiment.particles_cuont=7", "PF_option.BETA=1", "vmcl.min_sahre=1"})
+    EXPECT_THROW(loadLocalizationConfig(write(), {}, {}, {{change}, std::nullopt}), std::runtime_error) << change;
+}
+
+TEST_F(Ini, SensorsChooseTheMaps) {
+  sections_["MetricMap"]["visualKeyframes_count"] = "1";
+  const auto load_for = [&](Sensors sensors) {
+    return loadLocalizationConfig(write(), {"a.vmap", "b.simplemap"}, {}, {{}, sensors});
+  };
+  EXPECT_EQ(load_for(Sensors::both).maps.size(), 2U);
+  EXPECT_EQ(load_for(Sensors::both).map_file, "b.simplemap");
+  EXPECT_EQ(load_for(Sensors::camera).maps.size(), 1U);
+  EXPECT_EQ(load_for(Sensors::camera).map_file, "");
+  EXPECT_EQ(load_for(Sensors::laser).maps.size(), 1U);
+  EXPECT_EQ(load_for(Sensors::laser).map_file, "b.simplemap");
+  EXPECT_EQ(load_for(Sensors::odometry).maps.size(), 2U);
+  EXPECT_TRUE(load_for(Sensors::odometry).odometry_only);
+  EXPECT_FALSE(load_for(Sensors::both).odometry_only);
+}
+
+TEST_F(Ini, SensorsNeedTheirMaps) {
+  for (const Sensors sensors : {Sensors::camera, Sensors::both})
+    EXPECT_THROW(loadLocalizationConfig(write(), {}, {}, {{}, sensors}), std::runtime_error);
+  EXPECT_NO_THROW(loadLocalizationConfig(write(), {"a.vmap"}, {}, {{}, Sensors::laser}));
+  EXPECT_NO_THROW(loadLocalizationConfig(write(), {"a.vmap"}, {}, {{}, Sensors::odometry}));
+}
+
 TEST_F(Ini, IsReadAsPfLocalizationReadsIt) {
   const LocalizationConfig config = load();
   EXPECT_EQ(config.particles_count, 500);

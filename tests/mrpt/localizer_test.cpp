@@ -126,6 +126,42 @@ TEST(Localizer, IsNotLocalizedRightAfterAJump) {
   FAIL() << "the cluster did not jump";
 }
 
+TEST(Localizer, DoesNotFollowTheOdometryThroughAKidnapping) {
+  Localizer localizer(tracking(), mapsWith(flatMap()));
+  localizer.step(nullptr, nullptr, odometry(0));
+  localizer.step(nullptr, nullptr, commentAt(0));
+  localizer.step(nullptr, nullptr, odometry(0.5));
+  localizer.kidnap();
+  localizer.step(nullptr, nullptr, odometry(7));
+  localizer.step(nullptr, nullptr, odometry(7.25));
+  EXPECT_NEAR(localizer.step(nullptr, nullptr, commentAt(1))->cluster.robot_in_map.x, 1.75, 0.02);
+}
+
+TEST(Localizer, ByOdometryOnlyItWeighsNothing) {
+  LocalizationConfig config = tracking();
+  config.odometry_only = true;
+  const auto strict = std::make_shared<FakeMap>([](const PlanarPose& pose) { return pose.x > 1 ? -100 : 0; });
+  Localizer localizer(config, mapsWith(strict));
+  localizer.step(nullptr, nullptr, odometry(0));
+  localizer.step(nullptr, nullptr, commentAt(0));
+  localizer.step(nullptr, nullptr, odometry(0.5));
+  const auto frame = localizer.step(nullptr, nullptr, commentAt(1));
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(frame->cluster.robot_in_map.x, 1.5, 0.02);
+  EXPECT_EQ(frame->effective_share, 1);
+}
+
+// The map tells of no more room than the box where the particles would start, but of any heading.
+TEST(Localizer, MayStartAnywhereInTheMap) {
+  LocalizationConfig config = tracking();
+  config.start_anywhere = true;
+  const Localizer localizer(config, mapsWith(flatMap()));
+  double greatest = 0;
+  for (const auto& particle : localizer.particles().m_particles)
+    greatest = std::max(greatest, std::abs(particle.d.phi));
+  EXPECT_GT(greatest, 2.5);  // of 200 particles; false alarm (2.5 / pi)^200 = 1e-20
+}
+
 TEST(Localizer, SameSeedSameFrames) {
   const auto run = [] {
     Localizer localizer(tracking(), mapsWith(flatMap()));

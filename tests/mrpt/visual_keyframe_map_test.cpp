@@ -17,8 +17,8 @@
 
 #include <limits>
 
-#include "../datasets/scratch_directory.h"
 #include "../relocalization/synthetic_room.h"
+#include "scratch_directory.h"
 #include "vmcl/mapping/map_file.h"
 
 namespace vmcl {

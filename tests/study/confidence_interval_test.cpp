@@ -40,6 +40,27 @@ TEST(RootMean, OfSquares) {
   EXPECT_DOUBLE_EQ(same.high, 2);
 }
 
+TEST(Median, OfOddAndEvenNumbers) {
+  EXPECT_EQ(median(std::array{3.0, 1.0, 2.0}), 2);
+  EXPECT_EQ(median(std::array{4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_EQ(median({}), 0);
+  EXPECT_EQ(mean(std::array{1.0, 2.0, 6.0}), 3);
+}
+
+// Of three values the median of a sample is the least with chance 7/27, as is the greatest: both ends of the interval.
+TEST(BootstrapMedian, OfThreeValues) {
+  const Interval interval = bootstrapMedian(std::array{1.0, 2.0, 3.0});
+  EXPECT_EQ(interval.low, 1);
+  EXPECT_EQ(interval.high, 3);
+}
+
+// The mean of ten samples of 0 or 1 is 0.1 or less with chance 1.1 %, 0.2 or less with 5.5 %.
+TEST(BootstrapMean, OfTenValues) {
+  const Interval interval = bootstrapMean(std::array{0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
+  EXPECT_DOUBLE_EQ(interval.low, 0.2);
+  EXPECT_DOUBLE_EQ(interval.high, 0.8);
+}
+
 /// Of 400 intervals, those that miss the true value are binomial; a correct 95 % interval of so many normal errors
 /// misses it in 5 to 6 %, so that over 40 misses (10 %) happen by chance in fewer than 1 of 1000 seeds.
 TEST(BootstrapRootMean, HoldsTheTrueValueNineteenTimesOfTwenty) {

@@ -4,7 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include "vmcl/geometry/planar_pose.h"
-#include "yaml_map.h"
+#include "vmcl/geometry/yaml_map.h"
 
 namespace vmcl {
 

@@ -5,7 +5,7 @@
 
 #include "sensor_mount.h"
 #include "vmcl/geometry/camera.h"
-#include "yaml_map.h"
+#include "vmcl/geometry/yaml_map.h"
 
 namespace vmcl {
 namespace {

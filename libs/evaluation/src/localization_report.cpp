@@ -85,6 +85,7 @@ void writeSummary(const std::filesystem::path& file, const LocalizationRun& run)
         {"position_deviation", last.cluster.positionDeviation()},
         {"heading_deviation", last.cluster.headingDeviation()}};
   }
+  if (run.kidnapped) json["kidnapped"] = {{"from", run.kidnapped->from}, {"until", run.kidnapped->until}};
   if (run.ground_truth) json["ground_truth"] = toJson(evaluateTrajectory(estimatesOf(frames), *run.ground_truth));
   AtomicFile out(file);
   out.stream() << json.dump(2) << '\n';

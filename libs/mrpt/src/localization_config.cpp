@@ -11,10 +11,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
 
+#include "ini_changes.h"
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/ini_section.h"
 
@@ -82,6 +84,13 @@ fs::path locate(const fs::path& path, const fs::path& ini) {
 }
 
 bool isVisualMap(const fs::path& file) { return file.extension() == ".vmap"; }
+
+/// Leaves out map files for maps that the chosen sensors do without.
+void dropIdleMapFiles(const CConfigFileMemory& ini, Sensors sensors, std::vector<fs::path>& map_files) {
+  if (ini.read_int("MetricMap", "visualKeyframes_count", 0) < 1) std::erase_if(map_files, isVisualMap);
+  if (sensors == Sensors::camera && std::any_of(map_files.begin(), map_files.end(), isVisualMap))
+    std::erase_if(map_files, std::not_fn(isVisualMap));
+}
 
 /// Brings all map files to where their maps look for them.
 void placeMapFiles(CConfigFileMemory& ini, const fs::path& ini_file, std::vector<fs::path> map_files,
@@ -235,8 +244,9 @@ void LocalizedRule::check() const {
 }
 
 LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::vector<fs::path>& map_files,
-                                          const fs::path& rawlog_file) try {
+                                          const fs::path& rawlog_file, const IniChanges& changes) try {
   CConfigFileMemory ini = readIni(ini_file);
+  for (const std::string& change : changes.values) changeValue(ini, change);
   LocalizationConfig config;
   config.ini_file = ini_file;
   config.rawlog_file = rawlog_file;
@@ -247,7 +257,13 @@ LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::v
   readFilter(ini, config);
   readOwnSection(ini, config);
   refuseUnknownMaps(ini);
-  placeMapFiles(ini, ini_file, map_files, config);
+  std::vector<fs::path> used_map_files = map_files;
+  if (changes.sensors) {
+    keepMapsOf(ini, *changes.sensors);
+    dropIdleMapFiles(ini, *changes.sensors, used_map_files);
+    config.odometry_only = changes.sensors == Sensors::odometry;
+  }
+  placeMapFiles(ini, ini_file, used_map_files, config);
   config.maps.loadFromConfigFile(ini, "MetricMap");
   if (config.maps.size() == 0) throw std::invalid_argument("[MetricMap] asks for no map");
   return config;

@@ -74,7 +74,7 @@ Localizer::Localizer(const LocalizationConfig& config, CMultiMetricMap::Ptr maps
     : config_(config),
       maps_(std::move(maps)),
       filter_(maps_, config.kld, config.filter, config.monte_carlo, anywhere(config, *maps_)) {
-  filter_.start(startRegion(config, *maps_), config.particles_count);
+  filter_.start(config.start_anywhere ? anywhere(config, *maps_) : startRegion(config, *maps_), config.particles_count);
 }
 
 std::vector<std::string> Localizer::takeProblems() { return std::exchange(problems_, {}); }
@@ -132,6 +132,10 @@ CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode
   CSensoryFrame used;
   for (const auto& observation : frame) {
     if (!maps_->canComputeObservationLikelihood(*observation)) continue;
+    if (config_.odometry_only) {
+      used.insert(observation);
+      continue;
+    }
     try {
       std::vector<PoseMode> found;
       int found_inliers = 0;
@@ -178,7 +182,7 @@ std::optional<LocalizationFrame> Localizer::update(const CActionCollection* acti
     return std::nullopt;
   }
   started_ = true;
-  filter_.update(motion, &used, modes);
+  filter_.update(motion, config_.odometry_only ? nullptr : &used, modes);
   result.cluster = dominantCluster(filter_);
   countSteadyFrames(result.cluster);
   result.time = mrpt::Clock::toDouble((*used.begin())->timestamp);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "vmcl/geometry/random.h"
 
@@ -22,23 +23,42 @@ Interval wilsonInterval(int successes, int trials) {
   return {successes == 0 ? 0 : centre - half, successes == trials ? 1 : centre + half};
 }
 
-double rootMean(std::span<const double> squares) {
-  if (squares.empty()) return 0;
-  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size()));
+double mean(std::span<const double> values) {
+  if (values.empty()) return 0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-Interval bootstrapRootMean(std::span<const double> squares) {
-  if (squares.empty()) return {};
-  constexpr std::size_t samples = 1000, tail = 25;
-  std::array<double, samples> sums;
-  Random random(1);
-  const auto n = static_cast<uint32_t>(squares.size());
-  for (double& sum : sums) {
-    sum = 0;
-    for (uint32_t i = 0; i < n; ++i) sum += squares[random.below(n)];
-  }
-  std::sort(sums.begin(), sums.end());
-  return {std::sqrt(sums[tail] / n), std::sqrt(sums[samples - 1 - tail] / n)};
+double rootMean(std::span<const double> squares) { return std::sqrt(mean(squares)); }
+
+double median(std::span<const double> values) {
+  if (values.empty()) return 0;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t middle = sorted.size() / 2;
+  return sorted.size() % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
 }
+
+namespace {
+
+template <class Statistic>
+Interval bootstrap(std::span<const double> values, Statistic&& statistic) {
+  if (values.empty()) return {};
+  constexpr std::size_t samples = 1000, tail = 25;
+  std::array<double, samples> statistics;
+  std::vector<double> sample(values.size());
+  Random random(1);
+  for (double& value : statistics) {
+    for (double& drawn : sample) drawn = values[random.below(static_cast<uint32_t>(values.size()))];
+    value = statistic(sample);
+  }
+  std::sort(statistics.begin(), statistics.end());
+  return {statistics[tail], statistics[samples - 1 - tail]};
+}
+
+}  // namespace
+
+Interval bootstrapRootMean(std::span<const double> squares) { return bootstrap(squares, rootMean); }
+Interval bootstrapMean(std::span<const double> values) { return bootstrap(values, mean); }
+Interval bootstrapMedian(std::span<const double> values) { return bootstrap(values, median); }
 
 }  // namespace vmcl

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "../yaml_map.h"
 #include "vmcl/geometry/planar_pose.h"
+#include "vmcl/geometry/yaml_map.h"
 
 namespace vmcl {
 

@@ -12,10 +12,23 @@
 
 namespace vmcl {
 
+/// The robot is to be carried off at a time (s from the first time in the log), and so is a part of the log (s).
+struct Kidnapping {
+  double at = 0;
+  double skip = 0;
+};
+
+/// The log between these times (s) was left out, and the robot moved meanwhile.
+struct Kidnapped {
+  double from = 0;
+  double until = 0;
+};
+
 /// All that one localization run has to show.
 struct LocalizationRun {
   std::vector<LocalizationFrame> frames;
   std::optional<Trajectory> ground_truth;
+  std::optional<Kidnapped> kidnapped;
 };
 
 /// The frames' estimates, for evaluateTrajectory.

@@ -34,8 +34,8 @@ struct ErrorStatistics {
 struct EvaluationOptions {
   double success_position = 0.25;         ///< an estimate succeeds within this distance (m)
   double success_heading = 0.0872664626;  ///< and this angle (rad; 5 deg)
-  double accept_position = 0.5;           ///< a localized estimate farther away than this (m)
-  double accept_heading = 0.1745329252;   ///< or turned by more than this (rad; 10 deg) is a false accept
+  double accept_position = 1;             ///< a localized estimate farther away than this (m)
+  double accept_heading = 0.2617993878;   ///< or turned by more than this (rad; 15 deg) is a false accept
   double max_gap = 0.5;                   ///< ground truth is not interpolated over longer gaps (s)
 
   /// Throws std::invalid_argument naming the bad key.

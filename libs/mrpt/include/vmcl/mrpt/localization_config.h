@@ -5,10 +5,12 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vmcl/mrpt/planar_monte_carlo.h"
+#include "vmcl/mrpt/sensors.h"
 
 namespace vmcl {
 
@@ -44,6 +46,8 @@ struct LocalizationConfig {
   int particles_count = 0;
   PoseBox start;
   bool start_in_free_space = false;                                     ///< of the grid map; else anywhere in the box
+  bool start_anywhere = false;                                          ///< instead: wherever the maps allow
+  bool odometry_only = false;                                           ///< the maps weigh nothing
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions motion_model;  ///< for logs of observations only
   PlanarMonteCarlo::KldOptions kld;
   PlanarMonteCarlo::ParticleFilterOptions filter;
@@ -51,13 +55,21 @@ struct LocalizationConfig {
   LocalizedRule localized;
 };
 
+/// What is changed of an ini without editing it.
+struct IniChanges {
+  std::vector<std::string> values;  ///< "section.key=value" each
+  std::optional<Sensors> sensors;   ///< whose maps are used; nothing: all
+};
+
 /// Reads the ini. `map_files` take the place of map_file, or, for a .vmap, of the map_file of the first visual map; a
-/// `rawlog_file` takes the place of rawlog_file. Relative paths in the ini start at the working directory or, if there
-/// is no such file, at the directory of the ini. Throws std::runtime_error naming the file and what is wrong: missing,
-/// a key or value that is bad or not known, a `*_count` of no known map.
+/// `rawlog_file` takes the place of rawlog_file. Map files of which no map is used are left out. Relative paths in the
+/// ini start at the working directory or, if there is no such file, at the directory of the ini. Throws
+/// std::runtime_error naming the file and what is wrong: missing, a key or value that is bad or not known, a `*_count`
+/// of no known map, a changed key that MRPT would ignore if it were misspelt because the ini does not have it.
 LocalizationConfig loadLocalizationConfig(const std::filesystem::path& ini,
                                           const std::vector<std::filesystem::path>& map_files = {},
-                                          const std::filesystem::path& rawlog_file = {});
+                                          const std::filesystem::path& rawlog_file = {},
+                                          const IniChanges& changes = {});
 
 /// Creates the maps and fills them. Throws std::runtime_error naming the ini or the map file and what is wrong.
 mrpt::maps::CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config);

@@ -40,6 +40,9 @@ class Localizer {
                                         const mrpt::obs::CSensoryFrame::Ptr& frame,
                                         const mrpt::obs::CObservation::Ptr& observation);
 
+  /// The robot has been carried off: the odometry does not tell how it came from the last reading to the next.
+  void kidnap() { odometry_.reset(); }
+
   /// One line per broken observation or movement since the last call.
   std::vector<std::string> takeProblems();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "yaml_map.h"
+#include "vmcl/geometry/yaml_map.h"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +32,14 @@ class YamlMapTest : public testing::Test {
 };
 
 TEST_F(YamlMapTest, readsValuesMapsAndLists) {
-  YamlMap yaml = read("a: 1.5\nb: {c: text}\nd: [{e: 1}, {e: 2}]\nf: [1, 2]\n");
+  YamlMap yaml = read("a: 1.5\nb: {c: text}\nd: [{e: 1}, {e: 2}]\nf: [1, 2]\ng: [h, i]\n");
   EXPECT_EQ(yaml.get<double>("a"), 1.5);
   EXPECT_EQ(yaml.get("z", 7), 7);
   EXPECT_EQ(yaml.map("b").get<std::string>("c"), "text");
   EXPECT_EQ(yaml.list("d").at(1).get<int>("e"), 2);
   EXPECT_TRUE(yaml.list("none").empty());
   EXPECT_EQ(yaml.numbers("f", 2), (std::vector<double>{1, 2}));
+  EXPECT_EQ(yaml.texts("g"), (std::vector<std::string>{"h", "i"}));
   EXPECT_NO_THROW(yaml.finish());
 }
 
@@ -52,6 +53,8 @@ TEST_F(YamlMapTest, namesFileLineAndKey) {
   expectFailure([&] { yaml.map("a"); }, ":1: a is not a mapping of keys to values");
   expectFailure([&] { yaml.get<int>("z"); }, ":1: z is missing");
   expectFailure([&] { item.get<double>("f"); }, ":5: list[0].f is missing");
+  expectFailure([&] { yaml.texts("a"); }, ":1: a is not a list");
+  expectFailure([&] { yaml.texts("list"); }, ":5: list has an unfit value");
   expectFailure([&] { yaml.numbers("list", 3); }, ":5: list is not a list of 3 numbers");
 }
 

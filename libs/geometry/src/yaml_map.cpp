@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "yaml_map.h"
+#include "vmcl/geometry/yaml_map.h"
 
 #include <fstream>
 
@@ -53,6 +53,14 @@ std::vector<YamlMap> YamlMap::list(const std::string& key) {
   for (std::size_t i = 0; i < node.size(); ++i)
     maps.push_back({node[i], file_, name(key) + "[" + std::to_string(i) + "]"});
   return maps;
+}
+
+std::vector<std::string> YamlMap::texts(const std::string& key) {
+  const YAML::Node node = required(key);
+  if (!node.IsSequence()) fail(key, "is not a list");
+  std::vector<std::string> texts;
+  for (const YAML::Node& item : node) texts.push_back(as<std::string>(key, item));
+  return texts;
 }
 
 std::vector<double> YamlMap::numbers(const std::string& key, std::size_t size) {

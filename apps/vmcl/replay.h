@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include "problem_report.h"
+#include "vmcl/evaluation/localization_report.h"
+
+namespace vmcl {
+
+/// What of a log is replayed.
+struct Replay {
+  std::filesystem::path rawlog;
+  double begin = -std::numeric_limits<double>::infinity();  ///< steps before this time are left out
+  std::optional<Kidnapping> kidnapping;
+};
+
+/// Localizes the robot of the log; returns what was wrong with it. Throws std::runtime_error naming the log when
+/// nothing of it can be read, or when it ends before the kidnapped robot has been seen again.
+ProblemReport replay(const Replay& replay, Localizer& localizer, LocalizationRun& run);
+
+/// The time of the first observation that the ground truth covers. Throws std::runtime_error naming the log when there
+/// is none.
+double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& ground_truth);
+
+}  // namespace vmcl

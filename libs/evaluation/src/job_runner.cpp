@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/evaluation/job_runner.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <thread>
+
+#include "child_process.h"
+#include "run_files.h"
+#include "vmcl/geometry/atomic_file.h"
+
+namespace vmcl {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Not to be met by any other program that fills the directory, on any machine.
+std::string uniqueName(const Job& job) {
+  char host[65] = {};
+  gethostname(host, sizeof host - 1);
+  return job.id + '.' + host + '.' + std::to_string(getpid());
+}
+
+void createDirectories(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw std::runtime_error(directory.string() + ": cannot be made: " + error.message());
+}
+
+}  // namespace
+
+DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind) {
+  createDirectories(directory);
+  const fs::path file = directory / "lock";
+  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw std::runtime_error(file.string() + ": cannot be opened: " + std::strerror(errno));
+  if (flock(descriptor_, (kind == Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
+  const int reason = errno;
+  close(descriptor_);
+  throw std::runtime_error(directory.string() +
+                           (reason == EWOULDBLOCK ? ": another vmcl evaluate is at work there" : ": cannot be locked"));
+}
+
+DirectoryLock::~DirectoryLock() { close(descriptor_); }
+
+void JobRunner::writeJobList(const std::vector<Job>& jobs) {
+  AtomicFile list(directory_ / "jobs.jsonl");
+  for (const Job& job : jobs) list.stream() << describe(job) << '\n';
+  list.commit();
+}
+
+bool JobRunner::isDone(const Job& job) {
+  const fs::path directory = runDirectory(directory_, job);
+  const auto known = readJobHash(directory);
+  if (!known) return false;
+  if (const std::scoped_lock lock(describer_mutex_); *known != describer_.hashOf(job))
+    throw std::runtime_error(directory.string() +
+                             ": is of another configuration, log or map of these names: use another directory");
+  return readRunEnd(directory).done;
+}
+
+bool JobRunner::hasResults() const { return fs::exists(directory_ / "runs") || fs::exists(directory_ / "unfinished"); }
+
+void JobRunner::removeUnfinished() const {
+  std::error_code ignored;
+  fs::remove_all(directory_ / "unfinished", ignored);
+}
+
+std::string JobRunner::describe(const Job& job) {
+  const std::scoped_lock lock(describer_mutex_);
+  return describer_.describe(job);
+}
+
+void JobRunner::run(const Job& job) {
+  const fs::path aside = directory_ / "unfinished" / uniqueName(job), place = runDirectory(directory_, job);
+  createDirectories(aside);
+  createDirectories(place.parent_path());
+  std::vector<std::string> arguments = commandOf(experiment_, job);
+  arguments.insert(arguments.end(), {"--out", aside.string()});
+  const ProcessEnd end = runProcess(vmcl_, arguments, aside / "stdout.txt", aside / "stderr.txt");
+  writeRunEnd(aside, end, describe(job));
+  std::error_code error;
+  if (!readRunEnd(place).done) fs::remove_all(place, error);
+  fs::rename(aside, place, error);
+  if (!error) return;
+  if (!readRunEnd(place).done) throw std::runtime_error(place.string() + ": cannot be written: " + error.message());
+  fs::remove_all(aside, error);  // another machine was faster
+}
+
+void JobRunner::run(const std::vector<Job>& jobs, int workers, const std::function<void(std::size_t)>& on_end) {
+  std::mutex mutex;
+  std::size_t begun = 0, ended = 0;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::unique_lock lock(mutex); begun < jobs.size() && !failure;) {
+      const Job& job = jobs[begun++];
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        run(job);
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      if (thrown && !failure) failure = thrown;
+      on_end(++ended);
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < workers; ++i) threads.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace vmcl

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_layers.h"
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include "vmcl/mrpt/visual_keyframe_map.h"
+
+namespace vmcl {
+namespace {
+
+/// As a line, which takes less room in a picture than a point.
+void addDash(std::ostringstream& points, double from_x, double to_x, double y) {
+  points << from_x << ' ' << y << '\n' << to_x << ' ' << y << "\n\n";
+}
+
+/// A line for the occupied cells that lie beside each other.
+void addOccupiedCells(const mrpt::maps::COccupancyGridMap2D& grid, std::ostringstream& points) {
+  constexpr float max_free_probability = 0.4F;
+  const auto occupied = [&](int x, int y) {
+    return x < static_cast<int>(grid.getSizeX()) && grid.getCell(x, y) < max_free_probability;
+  };
+  const double half_cell = 0.5 * grid.getResolution();
+  for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
+    for (int x = 0; x < static_cast<int>(grid.getSizeX()); ++x) {
+      const int first = x;
+      while (occupied(x, y)) ++x;
+      if (x > first) addDash(points, grid.idx2x(first) - half_cell, grid.idx2x(x - 1) + half_cell, grid.idx2y(y));
+    }
+}
+
+/// Where the keyframes were taken, and landmarks within a few metres of them: the rest are far or bad.
+void addVisualMap(const KeyframeMap& map, std::ostringstream& landmarks, std::ostringstream& keyframes) {
+  constexpr double reach = 4, half_dash = 0.01;  // m
+  Eigen::AlignedBox2d area;
+  for (const Keyframe& keyframe : map.keyframes) {
+    const Eigen::Vector2d position = keyframe.map_from_robot.translation().head<2>();
+    keyframes << position.x() << ' ' << position.y() << '\n';
+    area.extend(position);
+  }
+  for (const Landmark& landmark : map.landmarks)
+    if (const Eigen::Vector2d position = landmark.point_in_map.head<2>(); area.exteriorDistance(position) < reach)
+      addDash(landmarks, position.x() - half_dash, position.x() + half_dash, position.y());
+}
+
+}  // namespace
+
+std::vector<PlotLayer> mapLayers(const mrpt::maps::CMultiMetricMap& maps) {
+  std::vector<PlotLayer> layers;
+  layers.push_back({"occupied", "with lines lw 2.5 lc rgb '#505050'", {}});
+  layers.push_back({"landmarks", "with lines lw 1.2 lc rgb '#a8a8a8'", {}});
+  layers.push_back({"keyframes", "with points pt 7 ps 0.4 lc rgb '#e0903a'", {}});
+  for (const auto& map : maps.maps) {
+    if (const auto* grid = dynamic_cast<const mrpt::maps::COccupancyGridMap2D*>(map.get()))
+      addOccupiedCells(*grid, layers[0].points);
+    if (const auto* visual = dynamic_cast<const VisualKeyframeMap*>(map.get()); visual && visual->content())
+      addVisualMap(*visual->content(), layers[1].points, layers[2].points);
+  }
+  std::erase_if(layers, [](const PlotLayer& layer) { return layer.empty(); });
+  return layers;
+}
+
+PlotLayer groundTruthLayer(const Trajectory& ground_truth) {
+  PlotLayer truth{"ground truth", "with lines lw 3 lc rgb '#2ca02c'", {}};
+  for (const StampedPose& pose : ground_truth.poses())
+    truth.points << pose.map_from_robot.translation().x() << ' ' << pose.map_from_robot.translation().y() << '\n';
+  return truth;
+}
+
+void writeData(std::ostream& script, const std::string& prefix, const std::vector<PlotLayer>& layers) {
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    script << '$' << prefix << i << " << END\n" << layers[i].points.str() << "END\n";
+}
+
+std::string plotOf(const std::string& prefix, const std::vector<PlotLayer>& layers) {
+  std::ostringstream plot;
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    plot << (i ? ", $" : "$") << prefix << i << ' ' << layers[i].style << " title '" << layers[i].name << '\'';
+  return plot.str();
+}
+
+}  // namespace vmcl

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/maps/CMultiMetricMap.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "vmcl/geometry/trajectory.h"
+
+namespace vmcl {
+
+/// Points in a gnuplot script, with the way to draw them. An empty line breaks a path.
+struct PlotLayer {
+  std::string name;
+  std::string style;
+  std::ostringstream points;
+
+  bool empty() const { return points.str().find_first_not_of('\n') == std::string::npos; }
+};
+
+/// The maps seen from above: occupied cells, landmarks, keyframes; those that there are.
+std::vector<PlotLayer> mapLayers(const mrpt::maps::CMultiMetricMap& maps);
+
+PlotLayer groundTruthLayer(const Trajectory& ground_truth);
+
+/// The data blocks $PREFIX0, $PREFIX1, ... of the layers.
+void writeData(std::ostream& script, const std::string& prefix, const std::vector<PlotLayer>& layers);
+
+/// What follows `plot`.
+std::string plotOf(const std::string& prefix, const std::vector<PlotLayer>& layers);
+
+}  // namespace vmcl
