@@ -8,6 +8,7 @@ packages=(
   libeigen3-dev libceres-dev libhwy-dev libopencv-dev zlib1g-dev
   libmrpt-slam-dev libmrpt-opengl-dev
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev
+  libassimp-dev # meshes of simulated scenes
   libgl1-mesa-dri # renders without a GPU, for the simulator
   gnuplot-nox
   libopengv-dev # peers of vmcl bench

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "simulation/shapes.h"
+
 namespace vmcl {
 namespace {
 
@@ -12,21 +14,21 @@ using Eigen::Vector2d;
 constexpr double forever = std::numeric_limits<double>::infinity();
 
 TEST(DriveThrough, passesTheWaypointsAndStopsAtTheLast) {
-  const std::vector<Vector2d> waypoints{{2, 0}, {2, 2}, {0, 2}};
+  const std::vector<Waypoint> waypoints{{{2, 0}}, {{2, 2}}, {{0, 2}}};
   const auto path = driveThrough({}, {}, waypoints, 100, forever).poses();
-  for (const Vector2d& waypoint : waypoints) {
+  for (const Waypoint& waypoint : waypoints) {
     double nearest = forever;
     for (const auto& pose : path)
-      nearest = std::min(nearest, (pose.map_from_robot.translation().head<2>() - waypoint).norm());
+      nearest = std::min(nearest, (pose.map_from_robot.translation().head<2>() - waypoint.place).norm());
     EXPECT_LT(nearest, 0.16);
   }
   EXPECT_EQ(path.front().time, 100);
-  EXPECT_LT((path.back().map_from_robot.translation().head<2>() - waypoints.back()).norm(), 0.16);
+  EXPECT_LT((path.back().map_from_robot.translation().head<2>() - waypoints.back().place).norm(), 0.16);
 }
 
 TEST(DriveThrough, keepsItsLimitsAndMovesAlongItsHeading) {
   const RobotModel robot;
-  const auto path = driveThrough(robot, {0, 0, 2}, {{1, 0}, {1, -1}, {-2, 1}}, 0, forever).poses();
+  const auto path = driveThrough(robot, {0, 0, 2}, {{{1, 0}}, {{1, -1}}, {{-2, 1}}}, 0, forever).poses();
   double last_speed = 0, last_turn_rate = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double dt = path[i].time - path[i - 1].time;
@@ -45,27 +47,43 @@ TEST(DriveThrough, keepsItsLimitsAndMovesAlongItsHeading) {
 }
 
 TEST(DriveThrough, endsWithTheDuration) {
-  const auto path = driveThrough({}, {}, {{50, 0}}, 0, 3).poses();
+  const auto path = driveThrough({}, {}, {{{50, 0}}}, 0, 3).poses();
   EXPECT_NEAR(path.back().time, 3, 0.011);
 }
 
 TEST(DriveThrough, refusesAWaypointItCannotReach) {
-  EXPECT_THROW(driveThrough({.max_speed = 0.01}, {}, {{50, 0}}, 0, forever), std::runtime_error);
+  EXPECT_THROW(driveThrough({.max_speed = 0.01}, {}, {{{50, 0}}}, 0, forever), std::runtime_error);
+}
+
+TEST(DriveThrough, heedsTheSpeedLimitOfAWaypoint) {
+  const auto path = driveThrough({}, {}, {{{2, 0}, 0.2}, {{4, 0}}}, 0, forever);
+  const auto speedAt = [&](double x) {
+    for (std::size_t i = 1; i < path.poses().size(); ++i)
+      if (path.poses()[i].map_from_robot.translation().x() > x)
+        return (path.poses()[i].map_from_robot.translation() - path.poses()[i - 1].map_from_robot.translation())
+                   .norm() /
+               0.01;
+    return 0.0;
+  };
+  EXPECT_NEAR(speedAt(1), 0.2, 1e-6);
+  EXPECT_NEAR(speedAt(3), RobotModel().max_speed, 1e-6);
 }
 
 TEST(CheckPathIsFree, saysWhereTheRobotTouchesWhat) {
-  const auto path = driveThrough({}, {}, {{3, 0}}, 0, forever);
-  const Solid table{"table", {2, 0.5, 0}, {0.3, 0.35}, 0, 0.7};
+  const auto path = driveThrough({}, {}, {{{3, 0}}}, 0, forever);
+  const auto check = [&](double bottom, const RobotModel& robot) {
+    Scene scene;
+    addBox(scene, scene.addObject("table"), {{2, 0.5, 0}, {0.3, 0.35}, bottom, 0.7}, {"plain", {}}, {});
+    checkPathIsFree(path, robot, FloorPlan(trianglesOf(scene), robot.height), scene.objects);
+  };
   try {
-    checkPathIsFree(path, {}, {table});
+    check(0, {});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("the path runs into table at [1."), std::string::npos) << error.what();
   }
-  EXPECT_NO_THROW(checkPathIsFree(path, {.radius = 0.1}, {table}));
-  Solid lintel = table;
-  lintel.bottom = 0.6;
-  EXPECT_NO_THROW(checkPathIsFree(path, {}, {lintel}));
+  EXPECT_NO_THROW(check(0, {.radius = 0.1}));
+  EXPECT_NO_THROW(check(0.6, {}));  // the robot passes below
 }
 
 }  // namespace

@@ -12,8 +12,11 @@
 namespace vmcl {
 namespace {
 
-const std::vector<std::string> materials{"plain",   "plaster", "bricks",  "wallpaper", "planks", "tiles",  "carpet",
-                                         "ceiling", "wood",    "drawers", "books",     "fabric", "fridge", "cardboard"};
+const std::vector<std::string> materials{
+    "plain",   "plaster",    "bricks",         "wallpaper",  "planks",       "tiles",     "carpet",  "ceiling",
+    "wood",    "drawers",    "books",          "fabric",     "fridge",       "cardboard", "cloth",   "rug",
+    "curtain", "leaves",     "marble",         "metal",      "screen",       "paper",     "lockers", "city",
+    "garden",  "whiteboard", "ceiling_panels", "blank_wall", "office_carpet"};
 
 Surface surface(const std::string& material, double width = 1.5, double height = 1.2) {
   return {width, height, {material, {180, 140, 100}}, {}, Eigen::Vector3d::UnitX(), 100};
@@ -24,18 +27,18 @@ bool equal(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_
 TEST(PaintSurface, sameSeedAndNumberGiveTheSameImageOthersAnother) {
   for (const std::string& material : materials) {
     ASSERT_TRUE(isMaterial(material));
-    const cv::Mat image = paintSurface(surface(material), {}, 5, 2);
+    const cv::Mat image = paintSurface(surface(material), 5, 2);
     EXPECT_EQ(image.size(), cv::Size(150, 120));
-    EXPECT_TRUE(equal(image, paintSurface(surface(material), {}, 5, 2))) << material;
-    EXPECT_FALSE(equal(image, paintSurface(surface(material), {}, 5, 3))) << material;
-    EXPECT_FALSE(equal(image, paintSurface(surface(material), {}, 6, 2))) << material;
+    EXPECT_TRUE(equal(image, paintSurface(surface(material), 5, 2))) << material;
+    EXPECT_FALSE(equal(image, paintSurface(surface(material), 5, 3))) << material;
+    EXPECT_FALSE(equal(image, paintSurface(surface(material), 6, 2))) << material;
   }
   EXPECT_FALSE(isMaterial("gold"));
 }
 
 TEST(PaintSurface, everyMaterialFitsTheSmallestSurfaces) {
   for (const std::string& material : materials)
-    EXPECT_NO_THROW(paintSurface(surface(material, 0.01, 0.01), {}, 1, 1)) << material;
+    EXPECT_NO_THROW(paintSurface(surface(material, 0.01, 0.01), 1, 1)) << material;
 }
 
 TEST(PaintSurface, noTwoDecorationsLookAlike) {
@@ -43,7 +46,7 @@ TEST(PaintSurface, noTwoDecorationsLookAlike) {
     ASSERT_TRUE(isDecoration(kind));
     Surface wall = surface("plain", 2, 1);
     wall.decorations = {{kind, {0.5, 0.5}, {0.8, 0.8}}, {kind, {1.5, 0.5}, {0.8, 0.8}}};
-    const cv::Mat image = paintSurface(wall, {}, 1, 1);
+    const cv::Mat image = paintSurface(wall, 1, 1);
     const cv::Mat left = image(cv::Rect(10, 10, 80, 80)), right = image(cv::Rect(110, 10, 80, 80));
     EXPECT_GT(cv::norm(left, right, cv::NORM_L1) / (80 * 80 * 3), 3) << kind;
   }
@@ -55,15 +58,19 @@ TEST(PaintSurface, decorationsStayInTheirPlace) {
   Surface wall = bare;
   wall.decorations = {{"painting", {0.5, 0.7}, {0.4, 0.2}}};
   cv::Mat difference;
-  cv::absdiff(paintSurface(bare, {}, 1, 1), paintSurface(wall, {}, 1, 1), difference);
+  cv::absdiff(paintSurface(bare, 1, 1), paintSurface(wall, 1, 1), difference);
   const cv::Rect place(30, 20, 40, 20);  // rows count from the top
   EXPECT_GT(cv::sum(difference(place))[0], 0);
   difference(place).setTo(0);
   EXPECT_EQ(cv::norm(difference), 0);
 }
 
-TEST(PaintSurface, lightBrightensTheSideTowardsIt) {
-  const auto brightness = [](const Light& light) { return cv::mean(paintSurface(surface("plain"), light, 1, 1))[0]; };
+TEST(ShadeEvenly, lightBrightensTheSideTowardsIt) {
+  const auto brightness = [](const Light& light) {
+    cv::Mat image = paintSurface(surface("plain"), 1, 1);
+    shadeEvenly(image, surface("plain"), light);
+    return cv::mean(image)[0];
+  };
   EXPECT_GT(brightness({1, 0}), brightness({1, 3}));
   EXPECT_NEAR(brightness({0.5, 0}), brightness({1, 0}) / 2, 1);
 }

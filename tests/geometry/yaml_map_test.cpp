@@ -32,7 +32,7 @@ class YamlMapTest : public testing::Test {
 };
 
 TEST_F(YamlMapTest, readsValuesMapsAndLists) {
-  YamlMap yaml = read("a: 1.5\nb: {c: text}\nd: [{e: 1}, {e: 2}]\nf: [1, 2]\ng: [h, i]\n");
+  YamlMap yaml = read("a: 1.5\nb: {c: text}\nd: [{e: 1}, {e: 2}]\nf: [1, 2]\ng: [h, i]\nk: [[1], [2, 3]]\n");
   EXPECT_EQ(yaml.get<double>("a"), 1.5);
   EXPECT_EQ(yaml.get("z", 7), 7);
   EXPECT_EQ(yaml.map("b").get<std::string>("c"), "text");
@@ -40,6 +40,9 @@ TEST_F(YamlMapTest, readsValuesMapsAndLists) {
   EXPECT_TRUE(yaml.list("none").empty());
   EXPECT_EQ(yaml.numbers("f", 2), (std::vector<double>{1, 2}));
   EXPECT_EQ(yaml.texts("g"), (std::vector<std::string>{"h", "i"}));
+  EXPECT_EQ(yaml.rows("k", 1, 2), (std::vector<std::vector<double>>{{1}, {2, 3}}));
+  EXPECT_EQ(yaml.within("a", 0, 1, 2), 1.5);
+  EXPECT_EQ(yaml.directory(), scratch_.path());
   EXPECT_NO_THROW(yaml.finish());
 }
 
@@ -55,6 +58,8 @@ TEST_F(YamlMapTest, namesFileLineAndKey) {
   expectFailure([&] { item.get<double>("f"); }, ":5: list[0].f is missing");
   expectFailure([&] { yaml.texts("a"); }, ":1: a is not a list");
   expectFailure([&] { yaml.texts("list"); }, ":5: list has an unfit value");
+  expectFailure([&] { b.within("d", 0, 2, 3); }, ":4: b.d is not between 2.000000 and 3.000000");
+  expectFailure([&] { yaml.rows("list", 1, 2); }, ":5: list is not a list of lists of 1 to 2 numbers");
   expectFailure([&] { yaml.numbers("list", 3); }, ":5: list is not a list of 3 numbers");
 }
 

@@ -57,14 +57,31 @@ void RawlogWriter::write(const mrpt::obs::CObservation& observation) {
   }
 }
 
-void RawlogWriter::write(mrpt::obs::CObservationImage observation, std::string_view encoded,
-                         const std::string& extension) {
-  const std::string name = numbered(observation.sensorLabel, image_count_++, extension);
+std::string RawlogWriter::keepImage(const std::string& label, std::string_view encoded, const std::string& extension) {
+  const std::string name = numbered(label, image_count_++, extension);
   std::ofstream image(temporary_images_ / name, std::ios::binary);
   image.write(encoded.data(), static_cast<std::streamsize>(encoded.size()));
   image.close();
   if (!image) fail(images_ / name, "no room left?");
-  observation.image.setExternalStorage(name);
+  return name;
+}
+
+void RawlogWriter::write(mrpt::obs::CObservationImage observation, std::string_view encoded,
+                         const std::string& extension) {
+  observation.image.setExternalStorage(keepImage(observation.sensorLabel, encoded, extension));
+  write(observation);
+}
+
+void RawlogWriter::write(mrpt::obs::CObservation3DRangeScan observation, std::string_view encoded,
+                         const std::string& extension) {
+  const std::string name = keepImage(observation.sensorLabel, encoded, extension);
+  observation.intensityImage.setExternalStorage(name);
+  const std::string depth_name = std::filesystem::path(name).stem().string() + "_depth.bin";
+  try {
+    observation.rangeImage_convertToExternalStorage(depth_name, temporary_images_.string());
+  } catch (const std::exception&) {
+    fail(images_ / depth_name, "no room left?");
+  }
   write(observation);
 }
 

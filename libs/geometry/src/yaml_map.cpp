@@ -45,6 +45,13 @@ YAML::Node YamlMap::required(const std::string& key) {
   return node;
 }
 
+double YamlMap::within(const std::string& key, double fallback, double low, double high) {
+  const double value = get(key, fallback);
+  if (!(value >= low && value <= high))
+    fail(key, "is not between " + std::to_string(low) + " and " + std::to_string(high));
+  return value;
+}
+
 std::vector<YamlMap> YamlMap::list(const std::string& key) {
   std::vector<YamlMap> maps;
   const YAML::Node node = find(key);
@@ -71,14 +78,18 @@ std::vector<double> YamlMap::numbers(const std::string& key, std::size_t size) {
   return values;
 }
 
-std::vector<std::array<double, 2>> YamlMap::points(const std::string& key) {
+std::vector<std::vector<double>> YamlMap::rows(const std::string& key, std::size_t least, std::size_t most) {
   const YAML::Node node = required(key);
-  std::vector<std::array<double, 2>> points;
+  if (!node.IsSequence()) fail(key, "is not a list");
+  std::vector<std::vector<double>> rows;
   for (const YAML::Node& item : node) {
-    if (!item.IsSequence() || item.size() != 2) fail(key, "is not a list of [x, y]");
-    points.push_back({as<double>(key, item[0]), as<double>(key, item[1])});
+    if (!item.IsSequence() || item.size() < least || item.size() > most)
+      fail(key, "is not a list of lists of " + std::to_string(least) +
+                    (most > least ? " to " + std::to_string(most) : "") + " numbers");
+    rows.emplace_back();
+    for (const YAML::Node& number : item) rows.back().push_back(as<double>(key, number));
   }
-  return points;
+  return rows;
 }
 
 std::vector<std::string> YamlMap::keys() const {

@@ -4,16 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "scene.h"
+#include "triangles.h"
 #include "vmcl/geometry/random.h"
 
 namespace vmcl {
 
-/// Distance (m) along a horizontal ray from map_from_ray, along its x axis at the height given, to the first solid.
-/// Inside of a solid: 0. Nothing if there is none.
-std::optional<double> castRay(const std::vector<Solid>& solids, const PlanarPose& map_from_ray, double height);
-
-/// A 2D laser: rays over a horizontal fan, from right to left.
+/// A 2D laser: rays over a fan in the xy plane of its frame, from right to left.
 struct LaserModel {
   int rays = 361;
   double aperture = 3.14159265358979;  ///< rad, from the first to the last ray
@@ -23,8 +19,26 @@ struct LaserModel {
   double angle(int ray) const { return rays == 1 ? 0 : aperture * (static_cast<double>(ray) / (rays - 1) - 0.5); }
 };
 
-/// Ranges of all rays; nothing where a ray gives no reading.
-std::vector<std::optional<double>> scan(const std::vector<Solid>& solids, const LaserModel& laser,
-                                        const PlanarPose& map_from_laser, double height, Random& random);
+/// Distances (m) along the rays to the first triangle, infinite where there is none. Each triangle is cut with the
+/// plane of the scan; the cut covers the rays between its two ends.
+class LaserSweep {
+ public:
+  LaserSweep(const LaserModel& laser, const Rigid3& map_from_laser);
+
+  void add(const std::vector<Triangle>& triangles);
+
+  /// The ranges as the laser measures them; nothing where a ray gives no reading.
+  std::vector<std::optional<double>> measure(Random& random) const;
+
+  const std::vector<double>& distances() const { return distances_; }
+
+ private:
+  void addCut(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
+  LaserModel laser_;
+  Rigid3 laser_from_map_;
+  std::vector<Eigen::Vector2d> directions_;
+  std::vector<double> distances_;
+};
 
 }  // namespace vmcl

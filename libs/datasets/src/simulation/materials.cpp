@@ -9,11 +9,35 @@ namespace {
 using Painter = void (*)(const Canvas&, const cv::Scalar&);
 
 const std::map<std::string, Painter>& painters() {
-  static const std::map<std::string, Painter> painters{
-      {"plain", paintPlain},   {"plaster", paintPlaster},    {"bricks", paintBricks}, {"wallpaper", paintWallpaper},
-      {"planks", paintPlanks}, {"tiles", paintTiles},        {"carpet", paintCarpet}, {"ceiling", paintCeiling},
-      {"wood", paintWood},     {"drawers", paintDrawers},    {"books", paintBooks},   {"fabric", paintFabric},
-      {"fridge", paintFridge}, {"cardboard", paintCardboard}};
+  static const std::map<std::string, Painter> painters{{"plain", paintPlain},
+                                                       {"plaster", paintPlaster},
+                                                       {"bricks", paintBricks},
+                                                       {"wallpaper", paintWallpaper},
+                                                       {"planks", paintPlanks},
+                                                       {"tiles", paintTiles},
+                                                       {"carpet", paintCarpet},
+                                                       {"ceiling", paintCeiling},
+                                                       {"wood", paintWood},
+                                                       {"drawers", paintDrawers},
+                                                       {"books", paintBooks},
+                                                       {"fabric", paintFabric},
+                                                       {"fridge", paintFridge},
+                                                       {"cardboard", paintCardboard},
+                                                       {"cloth", paintCloth},
+                                                       {"rug", paintRug},
+                                                       {"curtain", paintCurtain},
+                                                       {"leaves", paintLeaves},
+                                                       {"marble", paintMarble},
+                                                       {"metal", paintMetal},
+                                                       {"screen", paintScreen},
+                                                       {"paper", paintPaper},
+                                                       {"ceiling_panels", paintCeilingPanels},
+                                                       {"blank_wall", paintBlankWall},
+                                                       {"office_carpet", paintOfficeCarpet},
+                                                       {"lockers", paintLockers},
+                                                       {"whiteboard", paintWhiteboard},
+                                                       {"city", paintCity},
+                                                       {"garden", paintGarden}};
   return painters;
 }
 

@@ -35,4 +35,25 @@ void paintFabric(const Canvas& canvas, const cv::Scalar& color);
 void paintFridge(const Canvas& canvas, const cv::Scalar& color);
 void paintCardboard(const Canvas& canvas, const cv::Scalar& color);
 
+// Textiles, plants and surfaces of small things: soft_materials.cpp
+void paintCloth(const Canvas& canvas, const cv::Scalar& color);
+void paintRug(const Canvas& canvas, const cv::Scalar& color);
+void paintCurtain(const Canvas& canvas, const cv::Scalar& color);
+void paintLeaves(const Canvas& canvas, const cv::Scalar& color);
+void paintMarble(const Canvas& canvas, const cv::Scalar& color);
+void paintMetal(const Canvas& canvas, const cv::Scalar& color);
+void paintScreen(const Canvas& canvas, const cv::Scalar& color);
+void paintPaper(const Canvas& canvas, const cv::Scalar& color);
+
+// Offices: office_materials.cpp
+void paintCeilingPanels(const Canvas& canvas, const cv::Scalar& color);
+void paintBlankWall(const Canvas& canvas, const cv::Scalar& color);
+void paintOfficeCarpet(const Canvas& canvas, const cv::Scalar& color);
+void paintLockers(const Canvas& canvas, const cv::Scalar& color);
+void paintWhiteboard(const Canvas& canvas, const cv::Scalar& color);
+
+// Views from windows: backdrop_materials.cpp
+void paintCity(const Canvas& canvas, const cv::Scalar& color);
+void paintGarden(const Canvas& canvas, const cv::Scalar& color);
+
 }  // namespace vmcl

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,8 @@
 #include "vmcl/geometry/yaml_map.h"
 
 namespace vmcl {
+
+struct ModelMesh;
 
 /// What a surface is covered with: one of the names in materials.h, and its colour.
 struct Material {
@@ -33,38 +37,56 @@ struct Surface {
   std::vector<Decoration> decorations;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< the side it is seen from, in the map
   double pixels_per_metre = 300;
+  bool glows = false;  ///< shines by itself: a lamp, a screen, the view from a window
 };
 
-/// A visible rectangle. Its frame: origin at the lower left corner, x right and y up as seen from the front, z towards
-/// the viewer. It shows the surface from `offset` (m) on.
+/// A visible quadrangle: corners in the map, counter-clockwise from the lower left one as seen from the front, with the
+/// outward normals there (round bodies are smooth). It shows `width` x `height` of the surface from `offset` (m) on.
 struct Face {
-  Rigid3 map_from_face = Rigid3::Identity();
+  std::array<Eigen::Vector3d, 4> corners;
+  std::array<Eigen::Vector3d, 4> normals;
   double width = 0;
   double height = 0;
   std::size_t surface = 0;
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  std::size_t object = 0;
 };
 
-/// An upright box that blocks robot and laser beams.
-struct Solid {
+/// A mesh from a file, placed in the map.
+struct Model {
+  std::shared_ptr<const ModelMesh> mesh;
+  Rigid3 map_from_model = Rigid3::Identity();
+  double scale = 1;
+  std::size_t object = 0;
+};
+
+/// What a robot may run into, and what a session may move or remove.
+struct Object {
   std::string name;
-  PlanarPose map_from_solid;  ///< at the centre of the footprint
-  Eigen::Vector2d half_size = Eigen::Vector2d::Zero();
-  double bottom = 0;
-  double top = 0;
-
-  /// Horizontal distance of a point on the ground from the footprint; 0 inside.
-  double distance(const Eigen::Vector2d& point_in_map) const;
+  PlanarPose map_from_object;
+  bool present = true;
 };
 
-/// A furnished flat, map frame: x, y on the ground, z up.
+/// A light that shines from a rectangle: a lamp downwards and to the sides, a window to both sides.
+struct Lamp {
+  enum class Kind { lamp, window };
+  Kind kind = Kind::lamp;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Vector3d half_right = Eigen::Vector3d::Zero();  ///< half of the rectangle's sides (m)
+  Eigen::Vector3d half_up = Eigen::Vector3d::Zero();
+  double power = 1;  ///< relative to a common ceiling lamp, or to a window by day
+};
+
+/// Furnished rooms, map frame: x, y on the ground, z up. Walls and furniture are faces, models are read from files.
 struct Scene {
   std::vector<Surface> surfaces;
   std::vector<Face> faces;
-  std::vector<Solid> solids;
-};
+  std::vector<Model> models;
+  std::vector<Object> objects;
+  std::vector<Lamp> lamps;     ///< none: the scene is lit evenly
+  std::vector<Face> backdrop;  ///< the view from the windows: seen, but neither touched nor scanned
 
-/// Reads wall_height, floors, walls and boxes. Throws std::runtime_error naming file, line and key.
-Scene readScene(YamlMap& yaml);
+  std::size_t addObject(const std::string& name, const PlanarPose& map_from_object = {});
+};
 
 }  // namespace vmcl

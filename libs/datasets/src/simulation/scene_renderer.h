@@ -4,21 +4,32 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
+#include "light.h"
 #include "scene.h"
-#include "surface_painter.h"
 #include "vmcl/geometry/camera.h"
 
 namespace vmcl {
 
-/// Draws a scene off-screen, without a display (libmrpt's CFBORender on EGL; Mesa's software renderer will do).
+/// What a camera sees.
+struct View {
+  cv::Mat bgr;    ///< drawn twice as fine and averaged
+  cv::Mat depth;  ///< metres along the optical axis (float), 0 where there is nothing; only if asked for
+};
+
+/// Draws a scene off-screen, without a display (libmrpt's CFBORender on EGL; Mesa's software renderer will do). Where
+/// lamps or windows are placed in the scene, light is traced once and carried by the vertices.
 class SceneRenderer {
  public:
-  /// Throws std::runtime_error when off-screen drawing is not possible here, or the scene is too large for it.
-  SceneRenderer(const Scene& scene, const Light& light, uint64_t texture_seed, const PinholeCamera& camera);
+  /// `figure_surfaces`: what moving figures show. Throws std::runtime_error when off-screen drawing is not possible
+  /// here, or the scene is too large for it.
+  SceneRenderer(const Scene& scene, const Light& light, uint64_t texture_seed,
+                const std::vector<Surface>& figure_surfaces = {});
   ~SceneRenderer();
 
-  /// BGR, drawn twice as fine and averaged.
-  cv::Mat render(const Rigid3& map_from_camera);
+  /// Puts figures into the scene, in place of those before.
+  void setFigures(const std::vector<Face>& faces);
+
+  View render(const PinholeCamera& camera, const Rigid3& map_from_camera, bool with_depth = false);
 
  private:
   struct State;

@@ -9,30 +9,51 @@
 namespace vmcl {
 namespace {
 
+constexpr double gain_time = 3;  // s over which the gain of a camera wanders
+
 enum Stream : uint64_t { odometry_stream, laser_stream, camera_stream, stream_count };
 
 /// The generator for one reading of a sensor.
-Random readingRandom(uint64_t seed, Stream stream, double time) {
-  return Random(seed, static_cast<uint64_t>(std::llround(time * 1e6)) * stream_count + stream);
+Random readingRandom(uint64_t seed, Stream stream, double time, uint64_t number = 0) {
+  const auto microseconds = static_cast<uint64_t>(std::llround(time * 1e6));
+  return Random(seed + (number << 32), microseconds * stream_count + stream);
 }
 
-void addNoise(cv::Mat& image, double sigma, Random& random) {
-  for (auto pixel = image.begin<cv::Vec3b>(); pixel != image.end<cv::Vec3b>(); ++pixel) {
-    const int noise = static_cast<int>(std::lround(sigma * random.normal()));
-    for (uchar& channel : (*pixel).val) channel = static_cast<uchar>(std::clamp(channel + noise, 0, 255));
-  }
+mrpt::img::TCamera parametersOf(const CameraCalibration& calibration) {
+  const PinholeCamera& pinhole = calibration.pinhole;
+  mrpt::img::TCamera camera;
+  camera.ncols = static_cast<uint32_t>(pinhole.width);
+  camera.nrows = static_cast<uint32_t>(pinhole.height);
+  camera.setIntrinsicParamsFromValues(pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy);
+  const auto& k = calibration.distortion;
+  if (calibration.isDistorted()) camera.setDistortionPlumbBob(k[0], k[1], k[2], k[3], k[4]);
+  return camera;
 }
 
 }  // namespace
 
-SimulatedSensors::SimulatedSensors(const SimulationSetup& setup, uint64_t seed)
+SimulatedSensors::SimulatedSensors(const SimulationSetup& setup, const Trajectory& path, uint64_t seed)
     : setup_(setup),
+      path_(path),
       seed_(seed),
-      odometry_(setup.odometry.noise, Random(seed, odometry_stream)),
-      renderer_(setup.scene, setup.session.light, setup.texture_seed, setup.camera.pinhole) {}
+      slope_(setup.robot.tilt, setup.texture_seed),
+      odometry_(setup.robot.odometry.noise, Random(seed, odometry_stream)),
+      crowd_(setup.session.people, path),
+      triangles_(trianglesOf(setup.scene)),
+      renderer_(setup.scene, setup.session.light, setup.texture_seed, crowd_.surfaces()) {
+  for (std::size_t i = 0; i < setup.robot.cameras.size(); ++i) {
+    formations_.emplace_back(setup.robot.cameras[i]);
+    gains_.push_back({Random(seed, 1000 + i)});
+  }
+}
 
-mrpt::obs::CObservationOdometry SimulatedSensors::odometry(double time, const PlanarPose& map_from_robot) {
-  const PlanarPose reading = odometry_.read(map_from_robot);
+Rigid3 SimulatedSensors::truth(double time) const {
+  const Rigid3 map_from_robot = path_.at(time).value();
+  return setup_.robot.tilt > 0 ? slope_.tilted(planarPart(map_from_robot)) : map_from_robot;
+}
+
+mrpt::obs::CObservationOdometry SimulatedSensors::odometry(double time) {
+  const PlanarPose reading = odometry_.read(planarPart(path_.at(time).value()));
   mrpt::obs::CObservationOdometry observation;
   observation.sensorLabel = "odometry";
   observation.timestamp = mrpt::Clock::fromDouble(time);
@@ -40,12 +61,16 @@ mrpt::obs::CObservationOdometry SimulatedSensors::odometry(double time, const Pl
   return observation;
 }
 
-mrpt::obs::CObservation2DRangeScan SimulatedSensors::laser(double time, const PlanarPose& map_from_robot) const {
-  const LaserModel& model = setup_.laser.model;
-  const mrpt::poses::CPose3D& mount = setup_.laser.robot_from_laser;
-  const PlanarPose map_from_laser = map_from_robot * PlanarPose{mount.x(), mount.y(), mount.yaw()};
+mrpt::obs::CObservation2DRangeScan SimulatedSensors::laser(double time) const {
+  const LaserModel& model = setup_.robot.laser->model;
+  const mrpt::poses::CPose3D& mount = setup_.robot.laser->robot_from_laser;
+  LaserSweep sweep(model, truth(time) * toRigid3(mount));
+  sweep.add(triangles_);
+  std::vector<Triangle> people;
+  appendTriangles(people, crowd_.at(time));
+  sweep.add(people);
   Random random = readingRandom(seed_, laser_stream, time);
-  const auto ranges = scan(setup_.scene.solids, model, map_from_laser, mount.z(), random);
+  const auto ranges = sweep.measure(random);
   mrpt::obs::CObservation2DRangeScan observation;
   observation.sensorLabel = "laser";
   observation.timestamp = mrpt::Clock::fromDouble(time);
@@ -62,23 +87,61 @@ mrpt::obs::CObservation2DRangeScan SimulatedSensors::laser(double time, const Pl
   return observation;
 }
 
-mrpt::obs::CObservationImage SimulatedSensors::camera(double time) const {
-  const PinholeCamera& pinhole = setup_.camera.pinhole;
-  mrpt::obs::CObservationImage observation;
-  observation.sensorLabel = "camera";
-  observation.timestamp = mrpt::Clock::fromDouble(time);
-  observation.cameraPose = setup_.camera.robot_from_camera;
-  observation.cameraParams.ncols = static_cast<uint32_t>(pinhole.width);
-  observation.cameraParams.nrows = static_cast<uint32_t>(pinhole.height);
-  observation.cameraParams.setIntrinsicParamsFromValues(pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy);
-  return observation;
+double SimulatedSensors::nextGain(std::size_t number, double time) {
+  const double sigma = setup_.robot.cameras[number].sigma_gain;
+  Gain& gain = gains_[number];
+  const double kept = std::exp(-(time - gain.time) / gain_time);
+  gain.logarithm = kept * gain.logarithm + sigma * std::sqrt(1 - kept * kept) * gain.random.normal();
+  gain.time = time;
+  return setup_.session.exposure * std::exp(gain.logarithm);
 }
 
-cv::Mat SimulatedSensors::image(double time, const PlanarPose& map_from_robot) {
-  cv::Mat image = renderer_.render(toRigid3(map_from_robot) * toRigid3(setup_.camera.robot_from_camera));
-  Random random = readingRandom(seed_, camera_stream, time);
-  addNoise(image, setup_.camera.sigma_grey, random);
-  return image;
+Eigen::Vector3d SimulatedSensors::turnRate(const SimulatedCamera& camera, double time) const {
+  constexpr double before = 0.02;  // s
+  const auto earlier = path_.at(time - before);
+  if (!earlier) return Eigen::Vector3d::Zero();
+  const Eigen::AngleAxisd turn((earlier->inverse() * path_.at(time).value()).linear());
+  return toRigid3(camera.robot_from_camera).linear().transpose() * (turn.angle() / before * turn.axis());
+}
+
+CameraShot SimulatedSensors::camera(std::size_t number, double time) {
+  const SimulatedCamera& camera = setup_.robot.cameras[number];
+  const ImageFormation& formation = formations_[number];
+  if (!setup_.session.people.empty()) renderer_.setFigures(crowd_.at(time));
+  const View view =
+      renderer_.render(formation.ideal(), truth(time) * toRigid3(camera.robot_from_camera), camera.depth.has_value());
+  Random random = readingRandom(seed_, camera_stream, time, number);
+  CameraShot shot;
+  shot.bgr = formation.image(view.bgr, turnRate(camera, time), nextGain(number, time), random);
+  if (camera.depth) shot.depth_mm = formation.depth(view.depth, random);
+  shot.observation.sensorLabel = camera.label;
+  shot.observation.timestamp = mrpt::Clock::fromDouble(time);
+  shot.observation.cameraPose = camera.robot_from_camera;
+  shot.observation.cameraParams = parametersOf(camera.calibration);
+  return shot;
+}
+
+mrpt::obs::CObservation3DRangeScan depthObservation(const CameraShot& shot) {
+  mrpt::obs::CObservation3DRangeScan observation;
+  observation.sensorLabel = shot.observation.sensorLabel;
+  observation.timestamp = shot.observation.timestamp;
+  observation.cameraParams = observation.cameraParamsIntensity = shot.observation.cameraParams;
+  // The depth image's frame has the robot's kind of axes, the intensity image's the optical ones.
+  const mrpt::poses::CPose3D turned(0, 0, 0, -std::numbers::pi / 2, 0, -std::numbers::pi / 2);
+  observation.sensorPose = shot.observation.cameraPose - turned;
+  observation.relativePoseIntensityWRTDepth = turned;
+  observation.range_is_depth = true;
+  observation.rangeUnits = 0.001f;
+  observation.hasRangeImage = true;
+  observation.rangeImage_setSize(shot.depth_mm.rows, shot.depth_mm.cols);
+  double farthest = 0;
+  for (int row = 0; row < shot.depth_mm.rows; ++row)
+    for (int column = 0; column < shot.depth_mm.cols; ++column)
+      observation.rangeImage(row, column) = shot.depth_mm.at<uint16_t>(row, column);
+  cv::minMaxLoc(shot.depth_mm, nullptr, &farthest);
+  observation.maxRange = static_cast<float>(farthest / 1000);
+  observation.hasIntensityImage = true;
+  return observation;
 }
 
 }  // namespace vmcl

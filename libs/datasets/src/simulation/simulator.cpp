@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/datasets/simulator.h"
 
-#include <mrpt/maps/CSimpleMap.h>
-#include <mrpt/poses/CPose3DPDFGaussian.h>
-
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
+#include "map_frames.h"
+#include "model_mesh.h"
 #include "simulated_sensors.h"
 #include "vmcl/datasets/rawlog_writer.h"
 
@@ -16,25 +16,24 @@ namespace vmcl {
 namespace {
 
 constexpr double start_time = 1000;  // s
-constexpr double map_frame_way = 0.15, map_frame_turn = 8 * degree;
 constexpr int jpeg_quality = 92;
 
-enum class Sensor { odometry, laser, camera };
-
 struct Reading {
+  enum class Sensor { odometry, laser, camera };
   double time;
   Sensor sensor;
+  std::size_t camera = 0;
 };
 
 /// All readings of a drive by time.
-std::vector<Reading> schedule(const SimulationSetup& setup, double end_time) {
+std::vector<Reading> schedule(const RobotSetup& robot, double end_time) {
   std::vector<Reading> readings;
-  const auto add = [&](Sensor sensor, double rate) {
-    for (int i = 0; start_time + i / rate <= end_time; ++i) readings.push_back({start_time + i / rate, sensor});
+  const auto add = [&](Reading::Sensor sensor, double rate, std::size_t camera = 0) {
+    for (int i = 0; start_time + i / rate <= end_time; ++i) readings.push_back({start_time + i / rate, sensor, camera});
   };
-  add(Sensor::odometry, setup.odometry.rate);
-  add(Sensor::laser, setup.laser.rate);
-  add(Sensor::camera, setup.camera.rate);
+  add(Reading::Sensor::odometry, robot.odometry.rate);
+  if (robot.laser) add(Reading::Sensor::laser, robot.laser->rate);
+  for (std::size_t i = 0; i < robot.cameras.size(); ++i) add(Reading::Sensor::camera, robot.cameras[i].rate, i);
   std::stable_sort(readings.begin(), readings.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   return readings;
 }
@@ -43,51 +42,6 @@ std::string encodedJpeg(const cv::Mat& image) {
   std::vector<uint8_t> bytes;
   cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
   return {bytes.begin(), bytes.end()};
-}
-
-/// The places of a simplemap: a camera image and a scan each.
-class MapFrames {
- public:
-  bool isDue(const PlanarPose& map_from_robot) const {
-    if (map_.empty()) return true;
-    const PlanarPose motion = inverse(last_) * map_from_robot;
-    return std::hypot(motion.x, motion.y) >= map_frame_way || std::abs(motion.phi) >= map_frame_turn;
-  }
-
-  void add(const PlanarPose& map_from_robot, mrpt::obs::CObservationImage camera, const cv::Mat& image,
-           const mrpt::obs::CObservation2DRangeScan& laser) {
-    last_ = map_from_robot;
-    camera.image = mrpt::img::CImage(image, mrpt::img::DEEP_COPY);
-    const auto frame = mrpt::obs::CSensoryFrame::Create();
-    frame->insert(mrpt::obs::CObservation2DRangeScan::Create(laser));
-    frame->insert(mrpt::obs::CObservationImage::Create(camera));
-    const auto pose = mrpt::poses::CPose3DPDFGaussian::Create();
-    pose->mean = mrpt::poses::CPose3D(map_from_robot.x, map_from_robot.y, 0, map_from_robot.phi, 0, 0);
-    map_.insert(pose, frame);
-  }
-
-  int count() const { return static_cast<int>(map_.size()); }
-
-  /// Throws std::runtime_error when there is no room.
-  void save(AtomicFile& file) const {
-    const bool raw_images = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);  // a quarter of the size
-    const bool saved = map_.saveToFile(file.temporaryPath());
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(raw_images);
-    if (!saved) throw std::runtime_error(file.temporaryPath().string() + ": cannot be written");
-    file.commit();
-  }
-
- private:
-  mrpt::maps::CSimpleMap map_;
-  PlanarPose last_;
-};
-
-Trajectory drive(const SimulationSetup& setup, double duration) {
-  const Session& session = setup.session;
-  Trajectory path = driveThrough(setup.robot, session.start, session.waypoints, start_time, duration);
-  checkPathIsFree(path, setup.robot, setup.scene.solids);
-  return path;
 }
 
 double length(const Trajectory& path) {
@@ -100,24 +54,25 @@ double length(const Trajectory& path) {
 /// What a drive leaves behind.
 class Recording {
  public:
-  Recording(const SimulationSetup& setup, const std::filesystem::path& log, const SimulationOptions& options)
-      : sensors_(setup, options.seed), log_(log), writer_(log) {
+  Recording(const SimulationSetup& setup, const Trajectory& path, const std::filesystem::path& log,
+            const SimulationOptions& options)
+      : sensors_(setup, path, options.seed), has_laser_(setup.robot.laser), log_(log), writer_(log) {
     if (!options.simplemap.empty()) simplemap_.emplace(options.simplemap);
   }
 
-  void take(const Reading& reading, const Rigid3& map_from_robot) {
+  void take(const Reading& reading) {
     switch (reading.sensor) {
-      case Sensor::odometry:
-        writer_.write(sensors_.odometry(reading.time, planarPart(map_from_robot)));
-        truth_.push_back({reading.time, map_from_robot});
+      case Reading::Sensor::odometry:
+        writer_.write(sensors_.odometry(reading.time));
+        truth_.push_back({reading.time, sensors_.truth(reading.time)});
         ++report_.odometry_readings;
         break;
-      case Sensor::laser:
-        writer_.write(sensors_.laser(reading.time, planarPart(map_from_robot)));
+      case Reading::Sensor::laser:
+        writer_.write(sensors_.laser(reading.time));
         ++report_.scans;
         break;
-      case Sensor::camera:
-        takeImage(reading.time, planarPart(map_from_robot));
+      case Reading::Sensor::camera:
+        takeImage(reading);
     }
   }
 
@@ -132,16 +87,20 @@ class Recording {
   }
 
  private:
-  void takeImage(double time, const PlanarPose& map_from_robot) {
-    const auto camera = sensors_.camera(time);
-    const cv::Mat image = sensors_.image(time, map_from_robot);
-    writer_.write(camera, encodedJpeg(image), ".jpg");
+  void takeImage(const Reading& reading) {
+    const CameraShot shot = sensors_.camera(reading.camera, reading.time);
+    if (shot.depth_mm.empty())
+      writer_.write(shot.observation, encodedJpeg(shot.bgr), ".jpg");
+    else
+      writer_.write(depthObservation(shot), encodedJpeg(shot.bgr), ".jpg");
     ++report_.images;
-    if (simplemap_ && map_frames_.isDue(map_from_robot))
-      map_frames_.add(map_from_robot, camera, image, sensors_.laser(time, map_from_robot));
+    const PlanarPose map_from_robot = planarPart(sensors_.truth(reading.time));
+    if (!simplemap_ || !map_frames_.isDue(shot.observation.sensorLabel, map_from_robot)) return;
+    map_frames_.add(map_from_robot, shot, has_laser_ ? std::optional(sensors_.laser(reading.time)) : std::nullopt);
   }
 
   SimulatedSensors sensors_;
+  bool has_laser_;
   std::filesystem::path log_;
   RawlogWriter writer_;
   std::optional<AtomicFile> simplemap_;
@@ -149,6 +108,14 @@ class Recording {
   std::vector<StampedPose> truth_;
   SimulationReport report_;
 };
+
+std::vector<std::string> missingImages(const Scene& scene) {
+  std::set<std::string> missing;
+  for (const Model& model : scene.models)
+    for (const ModelPart& part : model.mesh->parts)
+      if (!part.missing_texture.empty()) missing.insert(part.missing_texture.string());
+  return {missing.begin(), missing.end()};
+}
 
 }  // namespace
 
@@ -159,20 +126,23 @@ void SimulationOptions::check() const {
 SimulationReport simulate(const std::filesystem::path& scene_file, const std::filesystem::path& log,
                           const SimulationOptions& options, const std::function<void(double share)>& progress) {
   options.check();
-  const SimulationSetup setup = readSimulationSetup(scene_file, options.session);
+  const SimulationSetup setup = readSimulationSetup(scene_file, options.session, options.include_directories);
   Trajectory path;
   try {
-    path = drive(setup, options.duration);
+    path = drive(setup.session, setup.robot.robot, setup.scene, start_time, options.duration, options.seed);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(scene_file.string() + ": session " + options.session + ": " + error.what());
+    const std::string session = options.session.empty() ? "" : "session " + options.session + ": ";
+    throw std::runtime_error(scene_file.string() + ": " + session + error.what());
   }
   const double end_time = path.poses().back().time;
-  Recording recording(setup, log, options);
-  for (const Reading& reading : schedule(setup, end_time)) {
-    recording.take(reading, path.at(reading.time).value());
+  Recording recording(setup, path, log, options);
+  for (const Reading& reading : schedule(setup.robot, end_time)) {
+    recording.take(reading);
     if (progress) progress((reading.time - start_time) / std::max(end_time - start_time, 1e-9));
   }
-  return recording.finish(path);
+  SimulationReport report = recording.finish(path);
+  report.missing_images = missingImages(setup.scene);
+  return report;
 }
 
 }  // namespace vmcl

@@ -22,21 +22,9 @@ double shade(const Eigen::Vector3d& normal, const Light& light) {
 /// Edges of a room are darker than the middle of its walls.
 double cornerShade(double distance) { return 1 - 0.22 * std::exp(-distance / 0.15); }
 
-void applyLight(cv::Mat& image, const Surface& surface, const Light& light) {
-  const double base = shade(surface.normal, light), scale = surface.pixels_per_metre;
-  std::vector<double> column_factor;
-  for (int x = 0; x < image.cols; ++x)
-    column_factor.push_back(cornerShade((std::min(x, image.cols - 1 - x) + 0.5) / scale));
-  for (int y = 0; y < image.rows; ++y) {
-    const double row_factor = base * cornerShade((std::min(y, image.rows - 1 - y) + 0.5) / scale);
-    auto* pixels = image.ptr<cv::Vec3b>(y);
-    for (int x = 0; x < image.cols; ++x) pixels[x] = cv::Vec3b(cv::Vec3d(pixels[x]) * row_factor * column_factor[x]);
-  }
-}
-
 }  // namespace
 
-cv::Mat paintSurface(const Surface& surface, const Light& light, uint64_t seed, uint64_t number) {
+cv::Mat paintSurface(const Surface& surface, uint64_t seed, uint64_t number) {
   Random random(seed, number);
   const double scale = surface.pixels_per_metre;
   cv::Mat image(std::max(1, static_cast<int>(std::lround(surface.height * scale))),
@@ -48,8 +36,19 @@ cv::Mat paintSurface(const Surface& surface, const Light& light, uint64_t seed, 
     const Eigen::Vector2d corner = decoration.center - decoration.size / 2;
     paintDecoration(decoration.kind, canvas.part(corner.x(), corner.y(), decoration.size.x(), decoration.size.y()));
   }
-  applyLight(image, surface, light);
   return image;
+}
+
+void shadeEvenly(cv::Mat& image, const Surface& surface, const Light& light) {
+  const double base = shade(surface.normal, light), scale = surface.pixels_per_metre;
+  std::vector<double> column_factor;
+  for (int x = 0; x < image.cols; ++x)
+    column_factor.push_back(cornerShade((std::min(x, image.cols - 1 - x) + 0.5) / scale));
+  for (int y = 0; y < image.rows; ++y) {
+    const double row_factor = base * cornerShade((std::min(y, image.rows - 1 - y) + 0.5) / scale);
+    auto* pixels = image.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < image.cols; ++x) pixels[x] = cv::Vec3b(cv::Vec3d(pixels[x]) * row_factor * column_factor[x]);
+  }
 }
 
 }  // namespace vmcl

@@ -20,6 +20,7 @@ TextureAtlas packAtlas(const std::vector<cv::Mat>& images, int max_side_px) {
   atlas.places.resize(images.size());
   int x = 0, shelf_bottom = 0, shelf_top = 0;
   for (const std::size_t i : order) {
+    if (images[i].empty()) continue;
     const cv::Size size(images[i].cols + 2 * border, images[i].rows + 2 * border);
     if (x + size.width > width) {
       x = 0;
@@ -33,6 +34,7 @@ TextureAtlas packAtlas(const std::vector<cv::Mat>& images, int max_side_px) {
     throw std::runtime_error("the surfaces of the scene are too large to be drawn");
   atlas.image = cv::Mat(shelf_bottom, width, CV_8UC3, cv::Scalar::all(0));
   for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images[i].empty()) continue;
     const cv::Rect& place = atlas.places[i];
     const cv::Rect outer(place.x - border, place.y - border, place.width + 2 * border, place.height + 2 * border);
     cv::copyMakeBorder(images[i], atlas.image(outer), border, border, border, border, cv::BORDER_REPLICATE);

@@ -10,7 +10,7 @@ namespace vmcl {
 /// edge sees no neighbour.
 struct TextureAtlas {
   cv::Mat image;
-  std::vector<cv::Rect> places;  ///< of each image given
+  std::vector<cv::Rect> places;  ///< of each image given; empty for an empty one
 };
 
 /// Throws std::runtime_error when an image is wider, or all together are higher, than `max_side_px`.

@@ -11,6 +11,12 @@ PlanarPose WheelOdometry::read(const PlanarPose& map_from_robot) {
     const double turn_error = std::sqrt(noise_.alpha1 * turn + noise_.alpha2 * way) * random_.normal();
     motion.x += way_error;
     motion.phi = wrapAngle(motion.phi + turn_error);
+    if (noise_.alpha5 > 0) motion.y += std::sqrt(noise_.alpha5 * way) * random_.normal();
+    if (noise_.slips_per_m > 0 && random_.uniform() < noise_.slips_per_m * way) {
+      const double slipped = std::abs(noise_.slip * random_.normal());  // by one of the two wheels
+      motion.x += slipped / 2;
+      motion.phi = wrapAngle(motion.phi + (random_.uniform() < 0.5 ? 1 : -1) * slipped / noise_.track_width);
+    }
     odom_from_robot_ = odom_from_robot_ * motion;
   }
   started_ = true;

@@ -7,12 +7,17 @@
 namespace vmcl {
 
 /// How odometry errs, after the alphas of AMCL (Thrun et al. 2005, 5.4), but with variances that grow with the way and
-/// the turn themselves, so that they do not depend on how often odometry is read.
+/// the turn themselves, so that they do not depend on how often odometry is read. Now and then a wheel slips: it counts
+/// way that the robot does not go, and a turn that it does not make.
 struct OdometryNoise {
-  double alpha1 = 0.002;   ///< variance of the heading per turn (rad^2/rad)
-  double alpha2 = 0.0005;  ///< variance of the heading per way (rad^2/m)
-  double alpha3 = 0.0005;  ///< variance of the way per way (m^2/m)
-  double alpha4 = 0.0001;  ///< variance of the way per turn (m^2/rad)
+  double alpha1 = 0.002;     ///< variance of the heading per turn (rad^2/rad)
+  double alpha2 = 0.0005;    ///< variance of the heading per way (rad^2/m)
+  double alpha3 = 0.0005;    ///< variance of the way per way (m^2/m)
+  double alpha4 = 0.0001;    ///< variance of the way per turn (m^2/rad)
+  double alpha5 = 0;         ///< variance of the drift sideways per way (m^2/m)
+  double slips_per_m = 0;    ///< how often a wheel slips
+  double slip = 0.05;        ///< standard deviation of the way counted too much in one slip (m)
+  double track_width = 0.3;  ///< between the wheels (m)
 };
 
 /// Wheel odometry of a robot whose true poses it is shown one after the other.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 
 #include <filesystem>
@@ -33,10 +34,15 @@ class RawlogWriter {
   /// Keeps the image outside: `encoded` is a whole JPEG or PNG file, `extension` its ending with the dot.
   void write(mrpt::obs::CObservationImage observation, std::string_view encoded, const std::string& extension);
 
+  /// Keeps intensity image and depth image outside.
+  void write(mrpt::obs::CObservation3DRangeScan observation, std::string_view encoded, const std::string& extension);
+
   /// Throws std::runtime_error naming the file when it could not be written whole.
   void commit();
 
  private:
+  std::string keepImage(const std::string& label, std::string_view encoded, const std::string& extension);
+
   std::filesystem::path log_;
   AtomicFile file_;
   std::filesystem::path images_;

@@ -6,14 +6,16 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace vmcl {
 
 struct SimulationOptions {
-  std::string session;                                        ///< one of those of the scene file
-  uint64_t seed = 1;                                          ///< of the sensors' noise
-  double duration = std::numeric_limits<double>::infinity();  ///< at most this long (s)
-  std::filesystem::path simplemap = {};                       ///< also written, if not empty
+  std::string session;                                          ///< one of those of the scene file; empty: the only one
+  uint64_t seed = 1;                                            ///< of the sensors' noise
+  double duration = std::numeric_limits<double>::infinity();    ///< at most this long (s)
+  std::filesystem::path simplemap = {};                         ///< also written, if not empty
+  std::vector<std::filesystem::path> include_directories = {};  ///< where included scenes are looked for
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
@@ -25,15 +27,16 @@ struct SimulationReport {
   int images = 0;
   int scans = 0;
   int odometry_readings = 0;
-  int map_frames = 0;  ///< places in the simplemap
+  int map_frames = 0;                       ///< places in the simplemap
+  std::vector<std::string> missing_images;  ///< of meshes, which were drawn in their plain colour
 };
 
-/// Drives a robot with camera ("camera"), 2D laser ("laser") and wheel odometry ("odometry") through the furnished
-/// rooms of a scene file (share/scenes/rooms.yaml shows all its keys). Writes the rawlog `log`, its images outside, and
-/// beside it `<log>.groundtruth.tum`, the true map_from_robot. The simplemap holds the true poses with a camera image
-/// (inside the file) and a scan each, every 0.15 m or 8 deg. The same options give the same bytes on one machine.
-/// Throws std::runtime_error naming file and reason: a scene with an unknown key, a path through a wall, no way to
-/// draw off-screen.
+/// Drives a robot with cameras, 2D laser ("laser") and wheel odometry ("odometry") through the furnished rooms of a
+/// scene file (doc/file_formats.md). Writes the rawlog `log`, its images outside, and beside it
+/// `<log>.groundtruth.tum`, the true map_from_robot. The simplemap holds the true poses with a camera image (inside the
+/// file) and a scan each, every 0.15 m or 8 deg. The same options give the same bytes on one machine. Throws
+/// std::runtime_error naming file and reason: a scene with an unknown key or a missing mesh, a path through a wall, no
+/// way to draw off-screen.
 SimulationReport simulate(const std::filesystem::path& scene_file, const std::filesystem::path& log,
                           const SimulationOptions& options, const std::function<void(double share)>& progress = {});
 

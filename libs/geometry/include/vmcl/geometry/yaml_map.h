@@ -3,7 +3,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -31,6 +30,10 @@ class YamlMap {
     const YAML::Node node = find(key);
     return node ? as<T>(key, node) : fallback;
   }
+
+  /// A number from `low` to `high`.
+  double within(const std::string& key, double fallback, double low, double high);
+
   YamlMap map(const std::string& key) { return {required(key), file_, name(key)}; }
 
   /// The mappings of a list; none if the key is missing.
@@ -42,11 +45,14 @@ class YamlMap {
   /// A list of `size` finite numbers.
   std::vector<double> numbers(const std::string& key, std::size_t size);
 
-  /// A list of points in the plane.
-  std::vector<std::array<double, 2>> points(const std::string& key);
+  /// A list of lists of between `least` and `most` finite numbers each: points, or poses.
+  std::vector<std::vector<double>> rows(const std::string& key, std::size_t least, std::size_t most);
 
   /// The keys of this mapping, for one whose keys are names.
   std::vector<std::string> keys() const;
+
+  /// The directory of the file, for the files it names.
+  std::filesystem::path directory() const { return std::filesystem::path(file_).parent_path(); }
 
   void finish() const;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +8,12 @@
 
 namespace vmcl {
 
+/// A doorway, or a window if it does not begin at the floor.
 struct Opening {
   double from = 0;  ///< m along the wall
   double to = 0;
-  double top = 0;  ///< height (m)
+  double bottom = 0;  ///< height (m)
+  double top = 0;
 };
 
 /// A straight wall from `start` along the x axis of its frame; left is its +y side.
@@ -29,16 +30,14 @@ struct Wall {
   std::vector<Decoration> right_decorations;
 };
 
-struct Box {
-  Solid solid;
-  Material material;
-  std::optional<Material> front;  ///< of the side towards +x of the box
-};
-
 void addFloor(Scene& scene, const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Material& material);
 void addCeiling(Scene& scene, const Eigen::Vector2d& low, const Eigen::Vector2d& high, double height,
                 const Material& material);
+
+/// Windows get a frame and let daylight in.
 void addWall(Scene& scene, const Wall& wall);
-void addBox(Scene& scene, const Box& box);
+
+/// A distant view all around the place given, painted with the material `kind`.
+void addBackdrop(Scene& scene, const Eigen::Vector2d& center, const std::string& kind);
 
 }  // namespace vmcl
