@@ -73,7 +73,8 @@ TEST(Estimator, PureOutliersGiveNoPose) {
   EXPECT_LE(found, 2);
 }
 
-// Three rays of two references fix the pose without any depth. Nearly all such problems are solved, at least 30 of 40.
+// Three rays of two references fix the pose without any depth. All of 600 such problems were solved on other seeds,
+// more than 99.3 % by that; fewer than 36 of 40: a false alarm in 100,000 at most.
 TEST(Estimator, NeedsNoDepthWithTwoReferences) {
   Random random(55);
   int found = 0;
@@ -85,7 +86,7 @@ TEST(Estimator, NeedsNoDepthWithTwoReferences) {
     ++found;
     EXPECT_EQ(estimate.modes[0].solver, Solver::three_rays);
   }
-  EXPECT_GE(found, 30);
+  EXPECT_GE(found, 36);
 }
 
 // The robot believes to stand upright.
@@ -98,7 +99,6 @@ Scene tiltedScene(Random& random, double tilt) {
   return scene;
 }
 
-// Without the soft plane about half are found; with it 95 %. Fewer than 40 of 50: a false alarm in 10,000.
 TEST(Estimator, FewSamplesAreSharedByTheKinds) {
   Random random(77);
   Scene scene = randomScene(random, {.matches = 50, .depth_rate = 1});
@@ -115,30 +115,39 @@ TEST(Estimator, FewSamplesAreSharedByTheKinds) {
   EXPECT_LT(difference(estimate.modes.front().robot_in_map, scene.map_from_robot).norm(), 0.05);
 }
 
+// Nearly all of these are found without the soft plane as well, but 14 mm off in the median, with it 1.5 mm. It was the
+// nearer in 97.5 % of 1200 scenes of other seeds; fewer than 42 of 50: a false alarm in 200,000.
 TEST(Estimator, SoftPlaneBearsHalfADegreeOfTilt) {
   Random random(56);
-  EstimatorOptions options;
-  options.plane = {.sigma_tilt = 0.01, .sigma_height = 0.01};
-  int found = 0;
+  EstimatorOptions soft;
+  soft.plane = {.sigma_tilt = 0.01, .sigma_height = 0.01};
+  int nearer = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const Scene scene = tiltedScene(random, 0.5 * M_PI / 180);
-    const PoseEstimate estimate = estimatePose(scene.problem, options);
-    found += estimate.found() && near(estimate.modes[0].robot_in_map, scene.map_from_robot);
+    const auto error = [&](const EstimatorOptions& options) {
+      const PoseEstimate estimate = estimatePose(scene.problem, options);
+      return estimate.found() ? difference(estimate.modes[0].robot_in_map, scene.map_from_robot).head<2>().norm() : 1;
+    };
+    nearer += error(soft) < std::min(error({}), 0.1);
   }
-  EXPECT_GE(found, 40);
+  EXPECT_GE(nearer, 42);
 }
 
+// Told of 99 % of 5000 tilted robots of other seeds, and of none of 1000 upright ones. Fewer than 55 of 60: a false
+// alarm in 20,000.
 TEST(Estimator, SaysWhenTheRobotIsOffItsPlane) {
   Random random(57);
   int upright = 0, tilted = 0;
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < 60; ++trial) {
     upright += estimatePose(tiltedScene(random, 0).problem, {}).off_plane_log_odds < 5;
     tilted += estimatePose(tiltedScene(random, 1 * M_PI / 180).problem, {}).off_plane_log_odds > 5;
   }
-  EXPECT_GE(upright, 28);
-  EXPECT_GE(tilted, 28);
+  EXPECT_GE(upright, 55);
+  EXPECT_GE(tilted, 55);
 }
 
+// Over 400 other seeds an estimate is off by -0.024 and 0.009 in the mean, with a standard deviation of 0.022: the mean
+// of ten would have to stray by ten of its own deviations.
 TEST(Estimator, EstimatesTheShareOfInliers) {
   Random random(58);
   for (const double outlier_rate : {0.2, 0.8}) {
