@@ -27,6 +27,7 @@ constexpr const char* plain_axes = "set grid lc rgb '#dddddd'\nset border 3 lc r
 std::string pathsCommands(const ExperimentResults& results, const CellGroup& group, const std::vector<PlotLayer>& map) {
   std::vector<PlotLayer> paths;
   paths.push_back(groundTruthLayer(results.ground_truths[group.session]));
+  paths.back().style = "with lines lw 7 lc rgb '#f3dc7a'";  // the paths lie on it
   for (std::size_t c = 0; c < group.cells.size(); ++c) {
     if (group.cells[c].done.empty()) continue;
     PlotLayer path{nameOf(results.experiment, group.cells[c].method), "with lines lw 1.5 " + lineStyle(c), {}};
@@ -60,7 +61,7 @@ std::string errorCommands(const ExperimentResults& results, const CellGroup& gro
     }
     commands << "END\n";
   }
-  commands << plain_axes << "set logscale y\nset multiplot layout 2,1 margins 0.09,0.83,0.1,0.97 spacing 0.1,0.09\n";
+  commands << plain_axes << "set logscale y\nset multiplot layout 2,1 margins 0.1,0.83,0.12,0.97 spacing 0.1,0.09\n";
   const auto panel = [&](const char* label, int column) {
     commands << "set ylabel '" << label << "'\nplot ";
     for (std::size_t c = 0; c < grid.cells.size(); ++c) {
@@ -81,18 +82,20 @@ std::string errorCommands(const ExperimentResults& results, const CellGroup& gro
 
 std::string successCommands(const ExperimentResults& results, const CellGroup& group, const ErrorGrid& grid) {
   constexpr int steps = 60;
-  constexpr double step = 0.025;  // m
+  constexpr double least = 0.01, most = 2;  // m
   std::ostringstream commands;
   commands << "$rates << END\n";
   for (int i = 0; i <= steps; ++i) {
-    const SuccessRates rates = successRates(grid, i * step);
-    commands << i * step;
+    const double distance = least * std::pow(most / least, static_cast<double>(i) / steps);
+    const SuccessRates rates = successRates(grid, distance);
+    commands << distance;
     for (const auto* shares : {&rates.absolute, &rates.normalized})
       for (const double share : *shares) commands << ' ' << share;
     commands << '\n';
   }
   commands << "END\n"
-           << plain_axes << "set yrange [0:1.02]\nset xrange [0:1.5]\nset xlabel 'threshold [m], with 5 deg'\n";
+           << plain_axes << "set yrange [0:1.02]\nset logscale x\nset xrange [" << least << ':' << most
+           << "]\nset xlabel 'threshold [m], with 5 deg'\n";
   for (const double distance : success_distances)
     commands << "set arrow from " << distance << ",0 to " << distance << ",1.02 nohead dt 2 lc rgb '#999999'\n";
   commands << "set multiplot layout 1,2 margins 0.07,0.83,0.17,0.9 spacing 0.09,0.1\n";
@@ -125,7 +128,8 @@ std::string boxCommands(const ExperimentResults& results, const CellGroup& group
       for (const Measure& measure : measuresIn(group, *all))
         if (measure.key == key) measures.push_back(measure);
   std::ostringstream commands;
-  commands << plain_axes << "set key off\nset style fill solid 0.25 border\nset style boxplot outliers pt 6\n"
+  commands << plain_axes
+           << "set key off\nset style fill solid 0.25 border\nset style boxplot outliers pt 6\nset yrange [0:*]\n"
            << "set xtics rotate by -30 (";
   for (std::size_t c = 0; c < group.cells.size(); ++c)
     commands << (c ? ", '" : "'") << nameOf(results.experiment, group.cells[c].method) << "' " << c;

@@ -2,8 +2,8 @@
 #include "experiment_tables.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
+#include <sstream>
 
 #include "vmcl/geometry/atomic_file.h"
 
@@ -102,8 +102,13 @@ std::vector<CellGroup> groupsOf(const ExperimentResults& results) {
 
 std::string titleOf(const ExperimentResults& results, const CellGroup& group) {
   const Start& start = results.experiment.starts[group.start];
-  return results.experiment.sessions[group.session].name + ", " +
-         (start.kidnapping ? start.name : start.name + " start");
+  std::ostringstream title;
+  title << results.experiment.sessions[group.session].name << ", ";
+  if (start.kidnapping)
+    title << "kidnapped at " << start.kidnapping->at << " s for " << start.kidnapping->skip << " s";
+  else
+    title << start.name << " start";
+  return title.str();
 }
 
 std::vector<Measure> measuresIn(const CellGroup& group, const std::vector<Measure>& measures) {

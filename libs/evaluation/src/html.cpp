@@ -8,13 +8,14 @@ namespace {
 
 constexpr const char* style = R"(
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; margin: 0; }
-main { max-width: 1080px; margin: 0 auto; padding: 1.5rem; }
+main { max-width: 1120px; margin: 0 auto; padding: 1.5rem; }
 h1 { font-size: 1.7rem; margin: 0 0 .5rem; }
 h2 { font-size: 1.25rem; margin: 2.5rem 0 .7rem; border-bottom: 2px solid #0072b2; padding-bottom: .2rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; display: block; overflow-x: auto; }
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e3e3; vertical-align: top; }
 th { background: #f3f6f8; font-weight: 600; vertical-align: bottom; }
 td:first-child, th:first-child { text-align: left; }
+.overview { font-size: .85rem; }
 .overview td:nth-child(2) { text-align: left; }
 .overview td:first-child { white-space: nowrap; }
 tr.first td { border-top: 2px solid #c8d2d8; }
@@ -52,7 +53,8 @@ std::string shellWord(const std::string& word) {
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
   std::string quoted = word;
   replaceAll(quoted, "'", "'\\''");
-  return '\'' + quoted + '\'';
+  quoted.insert(0, "'").push_back('\'');
+  return quoted;
 }
 
 std::string inlineSvg(std::string svg, const std::string& prefix) {

@@ -46,7 +46,7 @@ void addVisualMap(const KeyframeMap& map, std::ostringstream& landmarks, std::os
 
 std::vector<PlotLayer> mapLayers(const mrpt::maps::CMultiMetricMap& maps) {
   std::vector<PlotLayer> layers;
-  layers.push_back({"occupied", "with lines lw 2.5 lc rgb '#505050'", {}});
+  layers.push_back({"occupied", "with lines lw 3.5 lc rgb '#505050'", {}});
   layers.push_back({"landmarks", "with lines lw 1.2 lc rgb '#a8a8a8'", {}});
   layers.push_back({"keyframes", "with points pt 7 ps 0.4 lc rgb '#e0903a'", {}});
   for (const auto& map : maps.maps) {
