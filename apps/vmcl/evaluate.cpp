@@ -39,9 +39,9 @@ int runOneJob(const EvaluateRequest& request, const Experiment& experiment, cons
   if (job == jobs.end()) throw std::runtime_error(request.experiment.string() + ": has no run '" + request.job + "'");
   const DirectoryLock lock(request.directory, DirectoryLock::Kind::shared);
   JobRunner runner = runnerOf(request, experiment);
-  if (!runner.isDone(*job)) runner.run(*job);
-  if (runner.isDone(*job)) return exit_done;
-  std::cerr << "vmcl evaluate: " << job->id << ": failed\n";
+  const std::string reason = runner.isDone(*job) ? "" : runner.run(*job);
+  if (reason.empty()) return exit_done;
+  std::cerr << "vmcl evaluate: " << job->id << ": " << reason << '\n';
   return exit_failed;
 }
 

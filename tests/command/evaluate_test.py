@@ -2,6 +2,7 @@
 """`vmcl evaluate`: whole reports, the same after a kill, failures recorded, bad experiments refused."""
 import csv
 import json
+import re
 import resource
 import signal
 import subprocess
@@ -127,6 +128,8 @@ class EvaluateTest(CommandTest):
         self.write('experiment.yaml', GOOD.replace('rawlogs:', broken).replace('seeds: 8', 'seeds: 1'))
         result = self.vmcl('evaluate', self.experiment, '-o', 'out')
         self.assert_complaint(result, SOME_INPUT_BAD, 'broken.laser.both.global.1', 'broken.rawlog', 'not a rawlog')
+        single = self.vmcl('evaluate', self.experiment, '-o', 'out', '--job', 'broken.laser.both.global.1')
+        self.assert_complaint(single, FAILED, 'broken.laser.both.global.1', 'not a rawlog')
         statuses = {row['run']: row['status'] for row in self.rows('out', 'runs.csv')}
         self.assertEqual(statuses, {'broken.laser.both.global.1': 'failed', 'start.laser.both.global.1': 'done'})
         self.assertIn('not a rawlog', self.path('out/report.html').read_text())
@@ -192,6 +195,13 @@ class EvaluateTest(CommandTest):
         self.assert_complaint(result, FAILED, 'out/', 'cannot be written')
         self.assertLessEqual(before.items(), self.finished('out').items())
         self.succeed('evaluate', self.experiment, '-o', 'out', '--resume')
+
+    def test_the_experiments_that_come_along(self):
+        """They can be planned when there are the files that they name."""
+        for experiment in (SOURCE / 'share/experiments').glob('*.yaml'):
+            for file in set(re.findall(r'[\w.-]+\.(?:rawlog|vmap|simplemap|tum)\b', experiment.read_text())):
+                self.write(file, '0 0 0 0 0 0 0 1\n100 1 0 0 0 0 0 1\n')
+            self.assertGreater(len(self.succeed('evaluate', experiment, '-o', 'out', '--list').split()), 10)
 
     def test_output_that_cannot_be_written(self):
         self.write('taken', '')

@@ -33,6 +33,8 @@ std::vector<PlotLayer> mapOf(const Experiment& experiment, const CellGroup& grou
                                                     {configuration.changes, cell->method.sensors})));
 }
 
+std::string anchorOf(std::size_t group) { return std::string("g").append(std::to_string(group)); }
+
 /// Measures down, methods across.
 void writeGroupTable(std::ostream& out, const ExperimentResults& results, const CellGroup& group) {
   out << "<table><thead><tr><th></th>";
@@ -80,7 +82,7 @@ void writeOverview(std::ostream& out, const ExperimentResults& results, const st
     for (const Cell& cell : groups[g].cells) {
       const bool first = &cell == &groups[g].cells.front();
       out << (first ? "<tr class=first>" : "<tr>") << "<td>"
-          << (first ? "<a href='#g" + std::to_string(g) + "'>" + escaped(titleOf(results, groups[g])) + "</a>" : "")
+          << (first ? "<a href='#" + anchorOf(g) + "'>" + escaped(titleOf(results, groups[g])) + "</a>" : "")
           << "</td><td>" << escaped(nameOf(results.experiment, cell.method)) << "</td><td>" << cell.done.size()
           << "</td>";
       for (const Measure& measure : measures) {
@@ -147,7 +149,7 @@ void writePage(const std::filesystem::path& directory, const ExperimentResults& 
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const CellGroup& group = groups[g];
     if (!maps.contains(group.session)) maps[group.session] = mapOf(results.experiment, group);
-    writeGroup(out, directory, results, group, "g" + std::to_string(g), maps[group.session]);
+    writeGroup(out, directory, results, group, anchorOf(g), maps[group.session]);
   }
   writeFailures(out, results);
   writeWhatWasRun(out, results, version);

@@ -51,10 +51,9 @@ std::string shellWord(const std::string& word) {
     return std::isalnum(c) || std::string_view("_-./=:,+").find(static_cast<char>(c)) != std::string_view::npos;
   };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = word;
-  replaceAll(quoted, "'", "'\\''");
-  quoted.insert(0, "'").push_back('\'');
-  return quoted;
+  std::string text = word;
+  replaceAll(text, "'", "'\\''");
+  return std::string("'").append(text).append("'");
 }
 
 std::string inlineSvg(std::string svg, const std::string& prefix) {

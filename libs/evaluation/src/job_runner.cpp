@@ -78,7 +78,7 @@ std::string JobRunner::describe(const Job& job) {
   return describer_.describe(job);
 }
 
-void JobRunner::run(const Job& job) {
+std::string JobRunner::run(const Job& job) {
   const fs::path aside = directory_ / "unfinished" / uniqueName(job), place = runDirectory(directory_, job);
   createDirectories(aside);
   createDirectories(place.parent_path());
@@ -86,12 +86,14 @@ void JobRunner::run(const Job& job) {
   arguments.insert(arguments.end(), {"--out", aside.string()});
   const ProcessEnd end = runProcess(vmcl_, arguments, aside / "stdout.txt", aside / "stderr.txt");
   writeRunEnd(aside, end, describe(job));
+  const std::string reason = readRunEnd(aside).reason;
   std::error_code error;
   if (!readRunEnd(place).done) fs::remove_all(place, error);
   fs::rename(aside, place, error);
-  if (!error) return;
-  if (!readRunEnd(place).done) throw std::runtime_error(place.string() + ": cannot be written: " + error.message());
-  fs::remove_all(aside, error);  // another machine was faster
+  if (error && !readRunEnd(place).done)
+    throw std::runtime_error(place.string() + ": cannot be written: " + error.message());
+  if (error) fs::remove_all(aside, error);  // another machine was faster
+  return reason;
 }
 
 void JobRunner::run(const std::vector<Job>& jobs, int workers, const std::function<void(std::size_t)>& on_end) {

@@ -46,8 +46,9 @@ class JobRunner {
   /// Removes what runs have left behind that were killed. Only for one that is alone.
   void removeUnfinished() const;
 
-  /// Makes a run; a failure is a result as well. Throws std::runtime_error when nothing can be kept: a full disk, say.
-  void run(const Job& job);
+  /// Makes a run; returns why it failed, which is a result as well, and "" when it did not. Throws std::runtime_error
+  /// when nothing can be kept: a full disk, say.
+  std::string run(const Job& job);
 
   /// Makes runs side by side; tells of each that has ended, by number of those. When one throws, no more are begun.
   void run(const std::vector<Job>& jobs, int workers, const std::function<void(std::size_t)>& on_end);
