@@ -8,6 +8,7 @@ import signal
 import subprocess
 import time
 from html.parser import HTMLParser
+from pathlib import Path
 
 from command import BIN, FAILED, SAMPLE, SOME_INPUT_BAD, SOURCE, CommandTest, main
 
@@ -40,6 +41,16 @@ class EvaluateTest(CommandTest):
         runs = self.path(f'{directory}/runs')
         return {run.name: run.stat().st_mtime_ns for run in runs.iterdir()} if runs.exists() else {}
 
+    def processes(self, word):
+        """Those in whose command line it is."""
+        found = []
+        for process in Path('/proc').glob('[0-9]*/cmdline'):
+            try:
+                found += [process] if word.encode() in process.read_bytes() else []
+            except OSError:  # it has ended
+                pass
+        return found
+
     def test_killed_and_resumed(self):
         self.succeed('evaluate', self.experiment, '-o', 'whole', '--workers', 2)
         killed = subprocess.Popen([BIN / 'vmcl', 'evaluate', self.experiment, '-o', 'killed', '--workers', '2'],
@@ -49,6 +60,12 @@ class EvaluateTest(CommandTest):
             time.sleep(0.01)
         killed.send_signal(signal.SIGKILL)
         killed.wait()
+        for _ in range(100):
+            if not self.processes(f'{self.folder}/killed/unfinished'):
+                break
+            time.sleep(0.1)
+        else:
+            self.fail('a run goes on alone')
         before = self.finished('killed')
         self.assertLess(len(before), 8)
         self.assert_complaint(self.vmcl('evaluate', self.experiment, '-o', 'killed'), FAILED, 'killed', '--resume')

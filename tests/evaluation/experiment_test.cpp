@@ -26,7 +26,7 @@ class ExperimentTest : public ExperimentFiles {
 TEST_F(ExperimentTest, IsReadWhole) {
   const Experiment experiment = readExperiment(write("good.yaml", good_));
   ASSERT_EQ(experiment.sessions.size(), 1U);
-  const Session& session = experiment.sessions[0];
+  const ExperimentSession& session = experiment.sessions[0];
   EXPECT_EQ(session.name, "query");
   EXPECT_EQ(session.rawlog, path("query.rawlog"));
   EXPECT_EQ(session.maps, std::vector{path("rooms.simplemap")});

@@ -20,8 +20,8 @@ class Reader {
  public:
   explicit Reader(fs::path directory) : directory_(std::move(directory)) {}
 
-  Session session(YamlMap yaml) const {
-    Session session;
+  ExperimentSession session(YamlMap yaml) const {
+    ExperimentSession session;
     session.rawlog = existing(yaml, "rawlog", yaml.get<std::string>("rawlog"));
     session.name = name(yaml, session.rawlog);
     for (const std::string& map : yaml.texts("maps")) session.maps.push_back(existing(yaml, "maps", map));

@@ -27,7 +27,7 @@ std::vector<PlotLayer> mapOf(const Experiment& experiment, const CellGroup& grou
   auto cell = std::find_if(group.cells.begin(), group.cells.end(),
                            [](const Cell& c) { return c.method.sensors == Sensors::both; });
   if (cell == group.cells.end()) cell = group.cells.begin();
-  const Session& session = experiment.sessions[group.session];
+  const ExperimentSession& session = experiment.sessions[group.session];
   const Configuration& configuration = experiment.configurations[cell->method.configuration];
   return mapLayers(*loadMaps(loadLocalizationConfig(configuration.ini, session.maps, session.rawlog,
                                                     {configuration.changes, cell->method.sensors})));
@@ -109,7 +109,7 @@ void writeWhatWasRun(std::ostream& out, const ExperimentResults& results, const 
   JobDescriber describer(experiment);
   out << "<h2>What was run</h2>\n<p>vmcl " << escaped(version) << ", " << escaped(mrpt::system::MRPT_getVersion())
       << "; " << results.plan.jobs.size() << " runs, seeds 1 to " << experiment.seeds
-      << ". Each combination's first run, with the hash of all that decides on its result:</p>\n<table>\n";
+      << ". Each combination's first run, with the hash of all that decides on its result:</p>\n<table class=words>\n";
   for (const Job& job : results.plan.jobs)
     if (job.seed == 1) {
       out << "<tr><td><code>" << describer.hashOf(job) << "</code></td><td><code>vmcl";
@@ -121,18 +121,27 @@ void writeWhatWasRun(std::ostream& out, const ExperimentResults& results, const 
       << escaped(contentOf(experiment.file)) << "</pre>\n";
 }
 
-void writeFailures(std::ostream& out, const ExperimentResults& results) {
-  std::map<std::string, std::string> failures;
-  for (const RunResult& run : results.runs)
-    if (run.end.there && !run.end.done) failures[run.job.id] = run.end.reason;
-  if (!failures.empty()) out << "<h2>Runs that failed</h2>\n<table>\n";
-  for (const auto& [id, reason] : failures)
-    out << "<tr><td>" << escaped(id) << "</td><td>" << escaped(reason) << "</td></tr>\n";
-  if (!failures.empty()) out << "</table>\n";
-  if (!results.plan.skipped.empty()) out << "<h2>Combinations that make no sense</h2>\n<table>\n";
-  for (const SkippedCombination& skipped : results.plan.skipped)
-    out << "<tr><td>" << escaped(skipped.name) << "</td><td>" << escaped(skipped.reason) << "</td></tr>\n";
-  if (!results.plan.skipped.empty()) out << "</table>\n";
+using NamedReasons = std::vector<std::pair<std::string, std::string>>;
+
+void writeReasons(std::ostream& out, const std::string& title, const NamedReasons& reasons) {
+  if (reasons.empty()) return;
+  out << "<h2>" << title << "</h2>\n<table class=words>\n";
+  for (const auto& [name, reason] : reasons)
+    out << "<tr><td>" << escaped(name) << "</td><td>" << escaped(reason) << "</td></tr>\n";
+  out << "</table>\n";
+}
+
+void writeWhatWentWrong(std::ostream& out, const ExperimentResults& results) {
+  NamedReasons failures, problems, skipped;
+  for (const RunResult& run : results.runs) {
+    if (!run.end.reason.empty()) failures.emplace_back(run.job.id, run.end.reason);
+    for (const std::string& problem : run.end.problems) problems.emplace_back(run.job.id, problem);
+  }
+  for (const SkippedCombination& combination : results.plan.skipped)
+    skipped.emplace_back(combination.name, combination.reason);
+  writeReasons(out, "Runs that failed", failures);
+  writeReasons(out, "Runs with problems of their input", problems);
+  writeReasons(out, "Combinations that make no sense", skipped);
 }
 
 }  // namespace
@@ -151,7 +160,7 @@ void writePage(const std::filesystem::path& directory, const ExperimentResults& 
     if (!maps.contains(group.session)) maps[group.session] = mapOf(results.experiment, group);
     writeGroup(out, directory, results, group, anchorOf(g), maps[group.session]);
   }
-  writeFailures(out, results);
+  writeWhatWentWrong(out, results);
   writeWhatWasRun(out, results, version);
   out << "</main></body></html>\n";
   page.commit();

@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t max_jobs = 1'000'000;
 
 /// Of the ground truth, s.
-double durationOf(const Session& session) {
+double durationOf(const ExperimentSession& session) {
   const Trajectory truth = readTumTrajectory(session.ground_truth);
   if (truth.empty()) throw std::runtime_error(session.ground_truth.string() + ": holds no pose");
   return truth.poses().back().time - truth.poses().front().time;
 }
 
 /// Why the method cannot be run on the session; "" when it can.
-std::string misfit(const Session& session, const Configuration& configuration, Sensors sensors) {
+std::string misfit(const ExperimentSession& session, const Configuration& configuration, Sensors sensors) {
   try {
     const LocalizationConfig config =
         loadLocalizationConfig(configuration.ini, session.maps, session.rawlog, {configuration.changes, sensors});
@@ -61,10 +61,10 @@ ExperimentPlan planExperiment(const Experiment& experiment) {
     loadLocalizationConfig(configuration.ini, {}, experiment.sessions.front().rawlog,
                            {configuration.changes, std::nullopt});
   std::vector<double> durations;
-  for (const Session& session : experiment.sessions) durations.push_back(durationOf(session));
+  for (const ExperimentSession& session : experiment.sessions) durations.push_back(durationOf(session));
   ExperimentPlan plan;
   forEachCombination(experiment, [&](std::size_t s, const Method& method, std::size_t start) {
-    const Session& session = experiment.sessions[s];
+    const ExperimentSession& session = experiment.sessions[s];
     const Configuration& configuration = experiment.configurations[method.configuration];
     const std::string name =
         join({session.name, nameOf(method.sensors), configuration.name, experiment.starts[start].name});
@@ -88,7 +88,7 @@ ExperimentPlan planExperiment(const Experiment& experiment) {
 }
 
 std::vector<std::string> commandOf(const Experiment& experiment, const Job& job) {
-  const Session& session = experiment.sessions[job.session];
+  const ExperimentSession& session = experiment.sessions[job.session];
   const Configuration& configuration = experiment.configurations[job.method.configuration];
   const Start& start = experiment.starts[job.start];
   std::vector<std::string> command{"localize",      configuration.ini.string(),    "--rawlog", session.rawlog.string(),

@@ -129,7 +129,8 @@ std::string boxCommands(const ExperimentResults& results, const CellGroup& group
         if (measure.key == key) measures.push_back(measure);
   std::ostringstream commands;
   commands << plain_axes
-           << "set key off\nset style fill solid 0.25 border\nset style boxplot outliers pt 6\nset yrange [0:*]\n"
+           << "set key off\nset style fill solid 0.25 border\nset style boxplot outliers pt 6\nset yrange [0:*]\nset "
+              "offsets 0,0,graph 0.05,0\n"
            << "set xtics rotate by -30 (";
   for (std::size_t c = 0; c < group.cells.size(); ++c)
     commands << (c ? ", '" : "'") << nameOf(results.experiment, group.cells[c].method) << "' " << c;

@@ -15,6 +15,8 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; display: 
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e3e3; vertical-align: top; }
 th { background: #f3f6f8; font-weight: 600; vertical-align: bottom; }
 td:first-child, th:first-child { text-align: left; }
+.words td { text-align: left; }
+.words td:first-child { white-space: nowrap; }
 .overview { font-size: .85rem; }
 .overview td:nth-child(2) { text-align: left; }
 .overview td:first-child { white-space: nowrap; }

@@ -44,7 +44,7 @@ uint32_t JobDescriber::checksum(const std::filesystem::path& file) {
 }
 
 std::string JobDescriber::hashOf(const Job& job) {
-  const Session& session = experiment_.sessions[job.session];
+  const ExperimentSession& session = experiment_.sessions[job.session];
   const Configuration& configuration = experiment_.configurations[job.method.configuration];
   std::string all = job.id;  // sensors, start and seed are in it
   const auto add = [&](const std::string& part) { all += '\n' + part; };

@@ -25,7 +25,7 @@ void writeOpenLorisFiles(const std::filesystem::path& directory, const Experimen
   const Experiment& experiment = results.experiment;
   std::map<std::pair<std::string, std::string>, std::map<int, const RunResult*>> scenes;  // by folder and scene
   for (const RunResult& run : results.runs) {
-    const Session& session = experiment.sessions[run.job.session];
+    const ExperimentSession& session = experiment.sessions[run.job.session];
     if (!session.openloris || !run.end.done) continue;
     const std::string folder = run.job.id.substr(session.name.size() + 1);
     scenes[{folder, session.openloris->scene}][session.openloris->number] = &run;

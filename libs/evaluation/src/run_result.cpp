@@ -23,7 +23,7 @@ RunResult readRun(const Job& job, const Trajectory& ground_truth, const std::fil
 ExperimentResults readResults(const Experiment& experiment, const ExperimentPlan& plan,
                               const std::filesystem::path& directory) {
   ExperimentResults results{experiment, plan, {}, {}};
-  for (const Session& session : experiment.sessions)
+  for (const ExperimentSession& session : experiment.sessions)
     results.ground_truths.push_back(readTumTrajectory(session.ground_truth));
   for (const Job& job : plan.jobs)
     results.runs.push_back(readRun(job, results.ground_truths[job.session], runDirectory(directory, job)));

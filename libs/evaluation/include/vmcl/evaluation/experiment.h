@@ -19,7 +19,7 @@ struct OpenLorisSequence {
 };
 
 /// A log with the maps to localize it in.
-struct Session {
+struct ExperimentSession {
   std::string name;
   std::filesystem::path rawlog;
   std::vector<std::filesystem::path> maps;
@@ -44,7 +44,7 @@ struct Start {
 /// Each session with each sensor set, configuration, start and seed is a run. doc/file_formats.md has the file's form.
 struct Experiment {
   std::filesystem::path file;
-  std::vector<Session> sessions;
+  std::vector<ExperimentSession> sessions;
   std::vector<Sensors> sensors;
   std::vector<Configuration> configurations;
   std::vector<Start> starts;

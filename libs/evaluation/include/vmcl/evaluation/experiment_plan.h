@@ -16,7 +16,7 @@ struct Method {
   bool operator==(const Method&) const = default;
 };
 
-/// One run. Session, start and configuration are indices into the experiment.
+/// One run. ExperimentSession, start and configuration are indices into the experiment.
 struct Job {
   std::string id;  ///< SESSION.SENSORS.CONFIGURATION.START.SEED: the same whatever else the experiment holds
   std::size_t session = 0;
