@@ -9,6 +9,7 @@ packages=(
   libmrpt-slam-dev libmrpt-opengl-dev
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev
   libassimp-dev # meshes of simulated scenes
+  librosbag-storage-dev # ROS 1 bags
   libgl1-mesa-dri # renders without a GPU, for the simulator
   gnuplot-nox
   libopengv-dev # peers of vmcl bench

@@ -5,7 +5,8 @@ import re
 from command import SOURCE, CommandTest, main
 
 PARAMETERS = (SOURCE / 'doc/parameters.md').read_text()
-VERBS = (['simulate'], ['import', 'tum'], ['map'], ['localize'], ['evaluate'], ['relocalize'], ['estimate'], ['bench'])
+VERBS = (['simulate'], ['import', 'tum'], ['import', 'openloris'], ['import', 'images'], ['map'], ['localize'],
+         ['evaluate'], ['relocalize'], ['estimate'], ['bench'])
 
 
 class DocumentationTest(CommandTest):

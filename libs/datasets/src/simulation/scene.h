@@ -3,14 +3,11 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "vmcl/geometry/planar_pose.h"
-#include "vmcl/geometry/yaml_map.h"
 
 namespace vmcl {
 

@@ -121,27 +121,4 @@ CameraShot SimulatedSensors::camera(std::size_t number, double time) {
   return shot;
 }
 
-mrpt::obs::CObservation3DRangeScan depthObservation(const CameraShot& shot) {
-  mrpt::obs::CObservation3DRangeScan observation;
-  observation.sensorLabel = shot.observation.sensorLabel;
-  observation.timestamp = shot.observation.timestamp;
-  observation.cameraParams = observation.cameraParamsIntensity = shot.observation.cameraParams;
-  // The depth image's frame has the robot's kind of axes, the intensity image's the optical ones.
-  const mrpt::poses::CPose3D turned(0, 0, 0, -std::numbers::pi / 2, 0, -std::numbers::pi / 2);
-  observation.sensorPose = shot.observation.cameraPose - turned;
-  observation.relativePoseIntensityWRTDepth = turned;
-  observation.range_is_depth = true;
-  observation.rangeUnits = 0.001f;
-  observation.hasRangeImage = true;
-  observation.rangeImage_setSize(shot.depth_mm.rows, shot.depth_mm.cols);
-  double farthest = 0;
-  for (int row = 0; row < shot.depth_mm.rows; ++row)
-    for (int column = 0; column < shot.depth_mm.cols; ++column)
-      observation.rangeImage(row, column) = shot.depth_mm.at<uint16_t>(row, column);
-  cv::minMaxLoc(shot.depth_mm, nullptr, &farthest);
-  observation.maxRange = static_cast<float>(farthest / 1000);
-  observation.hasIntensityImage = true;
-  return observation;
-}
-
 }  // namespace vmcl

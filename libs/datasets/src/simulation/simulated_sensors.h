@@ -2,7 +2,6 @@
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
@@ -58,8 +57,5 @@ class SimulatedSensors {
   std::vector<Gain> gains_;
   SceneRenderer renderer_;
 };
-
-/// An RGB-D shot as MRPT's depth observation, with the intensity image left out.
-mrpt::obs::CObservation3DRangeScan depthObservation(const CameraShot& shot);
 
 }  // namespace vmcl

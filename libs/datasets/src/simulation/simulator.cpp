@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "../depth_observation.h"
 #include "map_frames.h"
 #include "model_mesh.h"
 #include "simulated_sensors.h"
@@ -92,7 +93,7 @@ class Recording {
     if (shot.depth_mm.empty())
       writer_.write(shot.observation, encodedJpeg(shot.bgr), ".jpg");
     else
-      writer_.write(depthObservation(shot), encodedJpeg(shot.bgr), ".jpg");
+      writer_.write(depthObservation(shot.observation, shot.depth_mm), encodedJpeg(shot.bgr), ".jpg");
     ++report_.images;
     const PlanarPose map_from_robot = planarPart(sensors_.truth(reading.time));
     if (!simplemap_ || !map_frames_.isDue(shot.observation.sensorLabel, map_from_robot)) return;
