@@ -81,14 +81,14 @@ TEST_F(JobRunnerTest, TellsHowARunEnded) {
 }
 
 TEST_F(JobRunnerTest, MeasuresWhatARunCosts) {
-  become("sleep 0.2");
+  become("sleep 0.5; head -c 300000000 /dev/zero | tail -c 200000000 > /dev/null");  // tail keeps 200 MB
   jobs_.resize(1);
   run();
   const RunCost cost = readRunCost(runDirectory(path("out"), jobs_[0]));
-  EXPECT_GE(cost.seconds, 0.2);
-  EXPECT_LT(cost.processor_seconds, 0.2);
-  EXPECT_GT(cost.peak_memory, 100e3);
-  EXPECT_LT(cost.peak_memory, 100e6);
+  EXPECT_GE(cost.seconds, 0.5);
+  EXPECT_LT(cost.processor_seconds, cost.seconds);
+  EXPECT_GT(cost.peak_memory, 200e6);
+  EXPECT_LT(cost.peak_memory, 400e6);
 }
 
 TEST_F(JobRunnerTest, StopsWhenNothingCanBeKept) {

@@ -14,7 +14,7 @@ struct ProcessEnd {
   int signal = 0;
   double seconds = 0;            ///< of real time
   double processor_seconds = 0;  ///< of all its threads
-  int64_t peak_memory = 0;       ///< most resident memory, bytes
+  int64_t peak_memory = 0;       ///< most resident memory of one process, bytes; what the caller has counts as well
 };
 
 /// Runs a program to its end, its stdout and stderr into files, its stdin empty. It does not outlive the calling

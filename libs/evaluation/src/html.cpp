@@ -6,7 +6,7 @@
 namespace vmcl {
 namespace {
 
-constexpr const char* style = R"(
+constexpr const char* style_sheet = R"(
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; margin: 0; }
 main { max-width: 1120px; margin: 0 auto; padding: 1.5rem; }
 h1 { font-size: 1.7rem; margin: 0 0 .5rem; }
@@ -68,7 +68,7 @@ std::string inlineSvg(std::string svg, const std::string& prefix) {
 void writePageHead(std::ostream& out, const std::string& title) {
   out << "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n<meta name=viewport "
          "content='width=device-width'>\n<title>"
-      << escaped(title) << "</title>\n<style>" << style << "</style></head>\n<body><main>\n<h1>" << escaped(title)
+      << escaped(title) << "</title>\n<style>" << style_sheet << "</style></head>\n<body><main>\n<h1>" << escaped(title)
       << "</h1>\n";
 }
 
