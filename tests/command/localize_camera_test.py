@@ -73,6 +73,16 @@ class LocalizeCameraTest(CommandTest):
                 bad.write_bytes(broken)
                 self.assert_complaint(self.vmcl(*self.localize(log)), SOME_INPUT_BAD, 'start.rawlog', bad.name)
 
+    def test_choices_that_make_no_sense(self):
+        for options, word in ((['--sensors', 'sonar'], '--sensors'), (['--sensors', 'laser'], 'no map for a laser'),
+                              (['--sensors', 'both'], 'no map for a laser'), (['--start', 'here'], '--start'),
+                              (['--start', 'given'], '--groundtruth'), (['--kidnap', '1'], '--kidnap'),
+                              (['--kidnap', '0', '1'], '--kidnap'), (['--set', 'min_share'], 'section.key=value'),
+                              (['--set', 'vmcl.min_sahre=1'], 'min_sahre'), (['--set', 'PF.BETA=1'], 'PF'),
+                              (['--kidnap', '1', '5'], 'ends before the kidnapped robot is seen again')):
+            with self.subTest(options):
+                self.assert_refused([*self.localize(), *options], word)
+
     def test_unknown_keys(self):
         for section, key in (('vmcl', 'injection_shore'), ('MetricMap_visualKeyframes_00_creationOpts', 'map_fiel'),
                              ('MetricMap_visualKeyframes_00_likelihoodOpts', 'retreived'),
