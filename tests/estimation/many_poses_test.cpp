@@ -15,6 +15,7 @@
 
 #include "random_scene.h"
 #include "vmcl/estimation/likelihood.h"
+#include "vmcl/estimation/pose_refiner.h"
 
 namespace vmcl {
 namespace {
@@ -42,6 +43,30 @@ std::vector<PlanarTransform> posesAround(const PlanarPose& truth, Random& random
   return poses;
 }
 
+/// Gradient and information in units of the information, to what single precision gives.
+void expectSameSlopes(const PoseLikelihood& likelihood, const std::vector<PlanarTransform>& poses) {
+  constexpr double slope_tolerance = 0.02;
+  const PoseRefiner refiner(likelihood, {});
+  std::vector<PlanarSlope> slopes(poses.size());
+  refiner.linearize(poses, slopes);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    RefinedPose pose;
+    pose.map_from_robot = poses[k].pose();
+    const PoseRefiner::Linearization exact = refiner.linearize(pose);
+    EXPECT_NEAR(slopes[k].log_likelihood, likelihood(poses[k]), tolerance) << "pose " << k;
+    const Eigen::Vector3d unit = (exact.information.diagonal().head<3>().array() + 1).sqrt();
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(slopes[k].gradient[i] / unit[i], exact.gradient[i] / unit[i],
+                  slope_tolerance * (1 + std::abs(exact.gradient[i]) / unit[i]))
+          << "pose " << k;
+      for (int j = 0; j < 3; ++j)
+        EXPECT_NEAR(slopes[k].information(i, j) / (unit[i] * unit[j]), exact.information(i, j) / (unit[i] * unit[j]),
+                    slope_tolerance)
+            << "pose " << k;
+    }
+  }
+}
+
 void expectSameAsOneByOne(const PoseLikelihood& likelihood, const std::vector<PlanarTransform>& poses) {
   std::vector<double> values(poses.size());
   likelihood.evaluate(poses, values);
@@ -49,6 +74,7 @@ void expectSameAsOneByOne(const PoseLikelihood& likelihood, const std::vector<Pl
     EXPECT_TRUE(std::isfinite(values[k]));
     EXPECT_NEAR(values[k], likelihood(poses[k]), tolerance) << "pose " << k;
   }
+  expectSameSlopes(likelihood, poses);
 }
 
 /// Anisotropic, as triangulation gives it, or not of full rank.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "minimal_sampler.h"
@@ -168,6 +169,33 @@ std::vector<RefinedHypothesis> refined(const PoseRefiner& refiner, const std::ve
   return kept;
 }
 
+/// Where the hypotheses climb to on the plane, the likeliest first: each summit once, and none that is hopeless.
+std::vector<Hypothesis> summitsFrom(const PoseRefiner& climber, const std::vector<Hypothesis>& starts) {
+  constexpr double same_distance2 = 0.04;  // in standard deviations
+  constexpr double hopeless = 25;          // log likelihood below the best
+  std::vector<PlanarTransform> poses;
+  for (const Hypothesis& start : starts) poses.push_back(start.pose);
+  const std::vector<ClimbedPose> climbed = climber.climb(poses);
+  std::vector<std::size_t> order(climbed.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return climbed[a].slope.log_likelihood > climbed[b].slope.log_likelihood;
+  });
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : order) {
+    const ClimbedPose& one = climbed[i];
+    if (one.slope.log_likelihood < climbed[order.front()].slope.log_likelihood - hopeless) break;
+    const bool seen = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
+      const Eigen::Vector3d d = difference(one.map_from_robot.pose(), climbed[k].map_from_robot.pose());
+      return d.dot(climbed[k].slope.information * d) < same_distance2;
+    });
+    if (!seen) kept.push_back(i);
+  }
+  std::vector<Hypothesis> summits;
+  for (const std::size_t i : kept) summits.push_back({climbed[i].map_from_robot, starts[i].solver});
+  return summits;
+}
+
 double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
   const RefinedPose off =
       PoseRefiner(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2}).refine(PlanarTransform(refined.map_from_robot));
@@ -223,21 +251,19 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   for (const auto& [hypothesis, score] : search.best(options.refined)) starts.push_back(hypothesis);
   if (starts.empty()) return noPose(NoPose::no_sample);
 
-  const PoseRefiner first_refiner(first_guess, options.plane);
-  const std::vector<RefinedHypothesis> peaks = refined(first_refiner, starts);
-  if (peaks.empty()) return noPose(NoPose::unconstrained);
-
-  // Judged and optimized once more with the share of inliers that the best pose shows.
+  const PoseRefiner climber(first_guess, {});
+  const std::vector<Hypothesis> summits = summitsFrom(climber, starts);
+  // Judged and optimized with the share of inliers that the best pose shows.
+  RefinedPose best_summit;
+  best_summit.map_from_robot = summits.front().pose.pose();
   LikelihoodOptions as_seen = options.likelihood;
-  as_seen.inlier_prior = first_refiner.inlierRate(peaks.front().pose);
+  as_seen.inlier_prior = climber.inlierRate(best_summit);
   const PoseLikelihood likelihood(problem, as_seen);
   const PoseRefiner refiner(likelihood, options.plane);
-  starts.clear();
-  for (const RefinedHypothesis& peak : peaks)
-    starts.push_back({PlanarTransform(peak.pose.map_from_robot), peak.solver});
+  const std::vector<RefinedHypothesis> peaks = refined(refiner, summits);
+  if (peaks.empty()) return noPose(NoPose::unconstrained);
   PoseEstimate estimate;
-  const std::vector<RefinedHypothesis> final_peaks = refined(refiner, starts);
-  for (const auto& [pose, solver] : final_peaks) {
+  for (const auto& [pose, solver] : peaks) {
     if (!isBetterThanChance(pose, first_guess)) continue;
     estimate.modes.push_back({pose.map_from_robot, pose.covariance, pose.log_likelihood, logEvidence(pose), 0,
                               refiner.inliers(pose), solver});

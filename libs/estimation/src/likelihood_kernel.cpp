@@ -44,10 +44,10 @@ HWY_INLINE Poses lanesOf(const PoseBlock& block) {
   return {fine, {rounded(fine.c), rounded(fine.s), rounded(fine.x), rounded(fine.y)}};
 }
 
-/// Multiplies by 1 + odds of all matches of a group. First lists those that may matter, so that the processor need not
-/// guess.
-template <class Odds, class Group>
-HWY_INLINE void multiply(const Group& group, const Poses& poses, LongProduct& product) {
+/// Calls on_match(odds, term) for the matches of a group that may add anything. First lists them, so that the processor
+/// need not guess.
+template <class Odds, class Group, class OnMatch>
+HWY_INLINE void visit(const Group& group, const Poses& poses, OnMatch&& on_match) {
   constexpr std::size_t chunk = 256;
   const Odds odds(group, poses);
   uint16_t listed[chunk];
@@ -58,31 +58,83 @@ HWY_INLINE void multiply(const Group& group, const Poses& poses, LongProduct& pr
       listed[count] = static_cast<uint16_t>(i);
       count += !hn::AllFalse(FloatTag(), odds.passes(group.gates[first + i]));
     }
-    for (std::size_t i = 0; i < count; ++i) product.multiplyByOnePlus(odds.odds(group.terms[first + listed[i]]));
+    for (std::size_t i = 0; i < count; ++i) on_match(odds, group.terms[first + listed[i]]);
   }
+}
+
+template <class OnMatch>
+HWY_INLINE void visit(const LikelihoodTerms& terms, const Poses& poses, OnMatch&& on_match) {
+  for (const PointTerms& group : terms.points) visit<PointOdds>(group, poses, on_match);
+  for (const RayTerms& group : terms.rays) visit<RayOdds>(group, poses, on_match);
+}
+
+/// L of each pose: on_value(lane, L).
+template <class OnValue>
+HWY_INLINE void readLogLikelihoods(const LikelihoodTerms& terms, LongProduct& product, std::size_t count,
+                                   OnValue&& on_value) {
+  product.renormalize();
+  HWY_ALIGN float log_mantissa[lanes];
+  HWY_ALIGN int32_t exponent[lanes];
+  hn::Store(hn::Log(FloatTag(), product.mantissa()), FloatTag(), log_mantissa);
+  hn::Store(product.exponent(), IntTag(), exponent);
+  for (std::size_t i = 0; i < count; ++i)
+    on_value(i, terms.outlier_sum + exponent[i] * std::numbers::ln2 + double{log_mantissa[i]});
 }
 
 void evaluateBlock(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
                    std::span<double> log_likelihoods) {
   const Poses poses = lanesOf(PoseBlock(terms, map_from_robot));
   LongProduct product(terms.matches_per_renormal);
-  for (const PointTerms& group : terms.points) multiply<PointOdds>(group, poses, product);
-  for (const RayTerms& group : terms.rays) multiply<RayOdds>(group, poses, product);
-  product.renormalize();
-  HWY_ALIGN float log_mantissa[lanes];
-  HWY_ALIGN int32_t exponent[lanes];
-  hn::Store(hn::Log(FloatTag(), product.mantissa()), FloatTag(), log_mantissa);
-  hn::Store(product.exponent(), IntTag(), exponent);
-  for (std::size_t i = 0; i < log_likelihoods.size(); ++i)
-    log_likelihoods[i] = terms.outlier_sum + exponent[i] * std::numbers::ln2 + double{log_mantissa[i]};
+  visit(terms, poses, [&](const auto& odds, const auto& term) HWY_ATTR { product.multiplyByOnePlus(odds.odds(term)); });
+  readLogLikelihoods(terms, product, log_likelihoods.size(), [&](std::size_t i, double L) { log_likelihoods[i] = L; });
+}
+
+/// Each match pulls by its chance of being an inlier.
+void linearizeBlock(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
+                    std::span<PlanarSlope> slopes) {
+  const Poses poses = lanesOf(PoseBlock(terms, map_from_robot));
+  LongProduct product(terms.matches_per_renormal);
+  Float sums[9];
+  for (Float& sum : sums) sum = all(0.0f);
+  visit(terms, poses, [&](const auto& odds, const auto& term) HWY_ATTR {
+    const MatchPull pull = odds.pull(term);
+    product.multiplyByOnePlus(pull.odds);
+    const Float weight = pull.odds / (all(1.0f) + pull.odds);
+    const Mask pulls = pull.odds > all(0.0f);
+    for (int i = 0; i < 3; ++i) sums[i] = sums[i] + hn::IfThenElseZero(pulls, weight * pull.gradient[i]);
+    for (int i = 0; i < 6; ++i) sums[3 + i] = sums[3 + i] + hn::IfThenElseZero(pulls, weight * pull.information[i]);
+  });
+  readLogLikelihoods(terms, product, slopes.size(), [&](std::size_t i, double L) { slopes[i].log_likelihood = L; });
+  HWY_ALIGN float stored[9][lanes];
+  for (int k = 0; k < 9; ++k) hn::Store(sums[k], FloatTag(), stored[k]);
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    const auto at = [&](int k) { return double{stored[k][i]}; };
+    Eigen::Matrix3d map_from_robot_axes = Eigen::Matrix3d::Identity();
+    const auto& [c, s, x, y] = map_from_robot[i];
+    map_from_robot_axes.topLeftCorner<2, 2>() << c, -s, s, c;
+    Eigen::Matrix3d information;
+    information << at(3), at(4), at(5), at(4), at(6), at(7), at(5), at(7), at(8);
+    slopes[i].gradient = map_from_robot_axes * Eigen::Vector3d(at(0), at(1), at(2));
+    slopes[i].information = map_from_robot_axes * information * map_from_robot_axes.transpose();
+  }
+}
+
+template <class Value, class Block>
+void inBlocks(std::span<const PlanarTransform> map_from_robot, std::span<Value> values, Block&& block) {
+  for (std::size_t first = 0; first < map_from_robot.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, map_from_robot.size() - first);
+    block(map_from_robot.subspan(first, count), values.subspan(first, count));
+  }
 }
 
 void evaluateBlocks(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
                     std::span<double> log_likelihoods) {
-  for (std::size_t first = 0; first < map_from_robot.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, map_from_robot.size() - first);
-    evaluateBlock(terms, map_from_robot.subspan(first, count), log_likelihoods.subspan(first, count));
-  }
+  inBlocks(map_from_robot, log_likelihoods, [&](auto poses, auto values) { evaluateBlock(terms, poses, values); });
+}
+
+void linearizeBlocks(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
+                     std::span<PlanarSlope> slopes) {
+  inBlocks(map_from_robot, slopes, [&](auto poses, auto values) { linearizeBlock(terms, poses, values); });
 }
 
 }  // namespace
@@ -94,10 +146,16 @@ HWY_AFTER_NAMESPACE();
 namespace vmcl {
 
 HWY_EXPORT(evaluateBlocks);
+HWY_EXPORT(linearizeBlocks);
 
 void evaluateTerms(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
                    std::span<double> log_likelihoods) {
   HWY_DYNAMIC_DISPATCH(evaluateBlocks)(terms, map_from_robot, log_likelihoods);
+}
+
+void linearizeTerms(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
+                    std::span<PlanarSlope> slopes) {
+  HWY_DYNAMIC_DISPATCH(linearizeBlocks)(terms, map_from_robot, slopes);
 }
 
 }  // namespace vmcl

@@ -11,6 +11,7 @@
 #include "inverse_depth_prior.h"
 #include "match_groups.h"
 #include "vmcl/estimation/likelihood.h"
+#include "vmcl/estimation/planar_slope.h"
 
 namespace vmcl {
 
@@ -102,5 +103,7 @@ bool isWithinReach(const LikelihoodTerms& terms, const PlanarTransform& map_from
 /// L at poses within reach.
 void evaluateTerms(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
                    std::span<double> log_likelihoods);
+void linearizeTerms(const LikelihoodTerms& terms, std::span<const PlanarTransform> map_from_robot,
+                    std::span<PlanarSlope> slopes);
 
 }  // namespace vmcl

@@ -24,6 +24,9 @@ inline constexpr double tiny_information = 1e-12;  ///< m^2: keeps its variance 
 /// Inverse depth is sought up to this: nothing is nearer to the reference than 0.2 m.
 inline constexpr double max_inverse_depth = 5;
 
+/// Variance of the relative depth of a point that the prior does not describe: unknown to a factor of 10.
+inline constexpr double unknown_scale = 100;
+
 /// Share of the points without depth that the prior of the inverse depth describes.
 inline constexpr double described_share = 0.9;
 
@@ -170,8 +173,6 @@ class RayView {
   }
 
  private:
-  static constexpr double unknown_scale = 100;  // variance of the relative depth: unknown to a factor of 10
-
   /// Inverse depth in [0, max_rho] that comes nearest to the observed query ray.
   double nearestInverseDepth(const Eigen::Vector2d& query_pixel, const Eigen::Vector3d& a) const {
     const Eigen::Vector2d u = a.head<2>() - query_pixel * a.z(), v = parallax_.head<2>() - query_pixel * parallax_.z();

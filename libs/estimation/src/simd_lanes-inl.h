@@ -70,6 +70,7 @@ HWY_INLINE Double widened(Float a) {
 HWY_INLINE Float mulAdd(Float a, Float b, Float c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE Float negMulAdd(Float a, Float b, Float c) { return hn::NegMulAdd(a, b, c); }
 HWY_INLINE Float all(float value) { return hn::Set(FloatTag(), value); }
+HWY_INLINE Float single(double value) { return all(static_cast<float>(value)); }
 
 /// row over the vector (x, y).
 template <class T, class Lanes>

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "vmcl/estimation/likelihood.h"
+#include "vmcl/estimation/planar_slope.h"
 
 namespace vmcl {
 
@@ -30,6 +33,12 @@ struct RefinedPose {
   Rigid3 rigid() const;
 };
 
+/// A planar pose all but at a maximum of L, and how L is there.
+struct ClimbedPose {
+  PlanarTransform map_from_robot;
+  PlanarSlope slope;
+};
+
 /// Climbs the likelihood: Levenberg-Marquardt on the residuals of each match weighted by its chance of being an inlier
 /// (expectation maximization), each step accepted only if the true objective grows.
 class PoseRefiner {
@@ -42,6 +51,10 @@ class PoseRefiner {
 
   RefinedPose refine(const PlanarTransform& start, int max_iterations = 20) const;
 
+  /// Climbs from many poses at once, on the plane and all but to the top, at a small part of the time: to see which are
+  /// worth refining. One result for each start, in order; none depends on the other starts.
+  std::vector<ClimbedPose> climb(std::span<const PlanarTransform> starts) const;
+
   /// Gradient and Gauss-Newton information of the likelihood over (x, y, phi, roll, pitch, height), matches weighted by
   /// their chance of being inliers. The gradient leaves out how the residuals' spread varies with the pose.
   struct Linearization {
@@ -50,6 +63,9 @@ class PoseRefiner {
     Matrix6 doubt = Matrix6::Zero();  ///< information lost because it is not sure which matches are inliers
   };
   Linearization linearize(const RefinedPose& pose) const;
+
+  /// The same at many planar poses, vectorized, in single precision. The sizes must agree.
+  void linearize(std::span<const PlanarTransform> poses, std::span<PlanarSlope> slopes) const;
 
   /// Share of inliers among the matches as this pose shows it, weighed with the prior's as if of 15 more matches.
   double inlierRate(const RefinedPose& pose) const;
