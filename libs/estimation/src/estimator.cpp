@@ -196,10 +196,9 @@ std::vector<Hypothesis> summitsFrom(const PoseRefiner& climber, const std::vecto
   return summits;
 }
 
-double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
-  const RefinedPose off =
-      PoseRefiner(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2}).refine(PlanarTransform(refined.map_from_robot));
-  return off.constrained ? off.log_evidence - refined.log_evidence : 0;
+double offPlaneLogOdds(const PoseLikelihood& likelihood, const PoseRefiner& refiner, const RefinedPose& refined) {
+  const PoseRefiner off(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2});
+  return off.logEvidenceAbout(refined) - refiner.logEvidenceAbout(refined);
 }
 
 PoseEstimate noPose(NoPose failure) {
@@ -260,20 +259,19 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   as_seen.inlier_prior = climber.inlierRate(best_summit);
   const PoseLikelihood likelihood(problem, as_seen);
   const PoseRefiner refiner(likelihood, options.plane);
-  const std::vector<RefinedHypothesis> peaks = refined(refiner, summits);
+  std::vector<RefinedHypothesis> peaks = refined(refiner, summits);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
+  std::erase_if(peaks, [&](const RefinedHypothesis& peak) { return !isBetterThanChance(peak.pose, first_guess); });
+  if (peaks.empty()) return noPose(NoPose::no_better_than_chance);
   PoseEstimate estimate;
-  for (const auto& [pose, solver] : peaks) {
-    if (!isBetterThanChance(pose, first_guess)) continue;
+  for (const auto& [pose, solver] : peaks)
     estimate.modes.push_back({pose.map_from_robot, pose.covariance, pose.log_likelihood, logEvidence(pose), 0,
                               refiner.inliers(pose), solver});
-  }
-  if (!estimate.found()) return noPose(NoPose::no_better_than_chance);
   estimate.modes = mergeModes(std::move(estimate.modes), options.max_modes);
   estimate.inlier_rate = as_seen.inlier_prior;
   const PoseMode& best = estimate.modes.front();
   estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
-  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner.refine(PlanarTransform(best.robot_in_map)));
+  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner, peaks.front().pose);
   return estimate;
 }
 
