@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "random_scene.h"
+#include "vmcl/estimation/estimator.h"
 #include "vmcl/estimation/likelihood.h"
 #include "vmcl/estimation/pose_refiner.h"
 
@@ -197,6 +198,22 @@ TEST_P(ManyPoses, AnyNumberOfPosesAndMatches) {
   std::vector<double> value{1};
   PoseLikelihood(empty, {}).evaluate(std::vector{PlanarTransform()}, value);
   EXPECT_EQ(value[0], 0);
+}
+
+// Rounding may lead the search elsewhere, but to the same peak. No chance is involved but where two peaks are as high.
+TEST_P(ManyPoses, SameEstimateAsPortable) {
+  Random random(58);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Scene scene = randomScene(random, {.matches = 100, .outlier_rate = 0.5, .noise_px = 2, .point_sigma = 0.02});
+    const PoseEstimate estimate = estimatePose(scene.problem, {});
+    useTargets(HWY_SCALAR);
+    const PoseEstimate portable = estimatePose(scene.problem, {});
+    useTargets(GetParam());
+    ASSERT_TRUE(estimate.found() && portable.found());
+    const PoseMode &best = estimate.modes.front(), &same = portable.modes.front();
+    EXPECT_LT(difference(best.robot_in_map, same.robot_in_map).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_EQ(best.inliers, same.inliers);
+  }
 }
 
 // So that threads may share the poses out as they like.

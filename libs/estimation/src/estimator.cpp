@@ -53,7 +53,7 @@ std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
 class Search {
  public:
   Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
-      : sampler_(problem), likelihood_(likelihood), refiner_(likelihood, {}), random_(options.seed) {
+      : sampler_(problem, options.seed), likelihood_(likelihood), refiner_(likelihood, {}) {
     for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
     if (kinds_.size() > 1) at_first_ = std::clamp(options.iterations / static_cast<int>(kinds_.size()), 1, at_first_);
     int left = options.iterations;
@@ -85,20 +85,19 @@ class Search {
     int drawn = 0;
   };
 
-  /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than so many that hardly a
-  /// possible sample is left out.
+  /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than there are.
   int samplesWanted(const Kind& kind) const {
-    constexpr double miss = 1e-3, coverage = 3;
-    if (kind.drawn == 0) return at_first_;
-    const double different = sampler_.sampleCount(kind.solver);
+    constexpr double miss = 1e-3;
+    const double left = sampler_.sampleCount(kind.solver) - kind.drawn;
+    if (kind.drawn == 0) return static_cast<int>(std::min(left, 1.0 * at_first_));
     const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
-    const double needed = std::min(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)), coverage * different);
-    return different <= at_first_ ? 0 : static_cast<int>(std::min(std::ceil(needed) - kind.drawn, 1.0 * kind.drawn));
+    const double needed = std::ceil(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)));
+    return static_cast<int>(std::min({needed - kind.drawn, 1.0 * kind.drawn, left}));
   }
 
   void draw(Kind& kind, int count) {
     std::vector<PlanarTransform> poses;
-    sampler_.draw(kind.solver, count, random_, poses);
+    sampler_.draw(kind.solver, count, poses);
     std::erase_if(poses, [](const PlanarTransform& pose) {
       return !std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.c) || !std::isfinite(pose.s);
     });
@@ -119,9 +118,8 @@ class Search {
   MinimalSampler sampler_;
   const PoseLikelihood& likelihood_;
   PoseRefiner refiner_;
-  Random random_;
   std::vector<Kind> kinds_;
-  int at_first_ = 250;  ///< samples of each kind before any rule
+  int at_first_ = 128;  ///< samples of each kind before any rule
   std::vector<Hypothesis> hypotheses_;
   std::vector<double> scores_;
   double best_score_ = -std::numeric_limits<double>::infinity();
@@ -169,13 +167,14 @@ std::vector<RefinedHypothesis> refined(const PoseRefiner& refiner, const std::ve
   return kept;
 }
 
-/// Where the hypotheses climb to on the plane, the likeliest first: each summit once, and none that is hopeless.
-std::vector<Hypothesis> summitsFrom(const PoseRefiner& climber, const std::vector<Hypothesis>& starts) {
-  constexpr double same_distance2 = 0.04;  // in standard deviations
-  constexpr double hopeless = 25;          // log likelihood below the best
+/// Where the hypotheses come to within some steps of climbing on the plane, the likeliest first: those that met once,
+/// and none whose log likelihood is `hopeless` below the best.
+std::vector<Hypothesis> climbedFrom(const PoseRefiner& climber, const std::vector<Hypothesis>& starts, int steps,
+                                    double hopeless) {
+  constexpr double met_distance2 = 0.1;  // in standard deviations
   std::vector<PlanarTransform> poses;
   for (const Hypothesis& start : starts) poses.push_back(start.pose);
-  const std::vector<ClimbedPose> climbed = climber.climb(poses);
+  const std::vector<ClimbedPose> climbed = climber.climb(poses, steps);
   std::vector<std::size_t> order(climbed.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -185,15 +184,24 @@ std::vector<Hypothesis> summitsFrom(const PoseRefiner& climber, const std::vecto
   for (const std::size_t i : order) {
     const ClimbedPose& one = climbed[i];
     if (one.slope.log_likelihood < climbed[order.front()].slope.log_likelihood - hopeless) break;
-    const bool seen = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
+    const bool met = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
       const Eigen::Vector3d d = difference(one.map_from_robot.pose(), climbed[k].map_from_robot.pose());
-      return d.dot(climbed[k].slope.information * d) < same_distance2;
+      return d.dot(climbed[k].slope.information * d) < met_distance2;
     });
-    if (!seen) kept.push_back(i);
+    if (!met) kept.push_back(i);
   }
-  std::vector<Hypothesis> summits;
-  for (const std::size_t i : kept) summits.push_back({climbed[i].map_from_robot, starts[i].solver});
-  return summits;
+  std::vector<Hypothesis> reached;
+  for (const std::size_t i : kept) reached.push_back({climbed[i].map_from_robot, starts[i].solver});
+  return reached;
+}
+
+/// The peaks above the hypotheses: most of these meet soon.
+std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vector<Hypothesis>& starts) {
+  constexpr int first_steps = 3, more_steps = 12;
+  constexpr double hopeless = 25;
+  const std::vector<Hypothesis> met =
+      climbedFrom(climber, starts, first_steps, std::numeric_limits<double>::infinity());
+  return climbedFrom(climber, met, more_steps, hopeless);
 }
 
 double offPlaneLogOdds(const PoseLikelihood& likelihood, const PoseRefiner& refiner, const RefinedPose& refined) {
@@ -251,13 +259,12 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (starts.empty()) return noPose(NoPose::no_sample);
 
   const PoseRefiner climber(first_guess, {});
-  const std::vector<Hypothesis> summits = summitsFrom(climber, starts);
+  const std::vector<Hypothesis> summits = summitsAbove(climber, starts);
   // Judged and optimized with the share of inliers that the best pose shows.
   RefinedPose best_summit;
   best_summit.map_from_robot = summits.front().pose.pose();
-  LikelihoodOptions as_seen = options.likelihood;
-  as_seen.inlier_prior = climber.inlierRate(best_summit);
-  const PoseLikelihood likelihood(problem, as_seen);
+  const double inlier_rate = climber.inlierRate(best_summit);
+  const PoseLikelihood likelihood = first_guess.withInlierPrior(inlier_rate);
   const PoseRefiner refiner(likelihood, options.plane);
   std::vector<RefinedHypothesis> peaks = refined(refiner, summits);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
@@ -268,7 +275,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
     estimate.modes.push_back({pose.map_from_robot, pose.covariance, pose.log_likelihood, logEvidence(pose), 0,
                               refiner.inliers(pose), solver});
   estimate.modes = mergeModes(std::move(estimate.modes), options.max_modes);
-  estimate.inlier_rate = as_seen.inlier_prior;
+  estimate.inlier_rate = inlier_rate;
   const PoseMode& best = estimate.modes.front();
   estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
   estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner, peaks.front().pose);

@@ -2,11 +2,9 @@
 #include "vmcl/estimation/likelihood.h"
 
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <string>
 
-#include "outlier_density.h"
 #include "prepared_matches.h"
 
 namespace vmcl {
@@ -21,36 +19,17 @@ void LikelihoodOptions::check() const {
 PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodOptions& likelihood_options)
     : options(likelihood_options),
       inverse_depth_prior(inverseDepthPrior(problem)),
-      query_cameras(problem.query_cameras),
-      reference_cameras(problem.reference_cameras),
-      match_count(static_cast<int>(problem.matches.size())) {
-  const std::vector<double> outlier_density = options.level_outliers ? outlierDensity(problem, options.inlier_prior)
-                                                                     : std::vector<double>(problem.matches.size(), 1);
-  std::map<int, PointGroup> points;
-  std::map<std::pair<int, int>, RayGroup> rays;
-  for (int i = 0; i < match_count; ++i) {
-    const Match& match = problem.matches[static_cast<std::size_t>(i)];
-    if (match.point) {
-      PointGroup& group = points[match.query_camera];
-      group.query = match.query_camera;
-      group.match.push_back(i);
-      group.pixel.push_back(match.query_pixel);
-      group.point_in_map.push_back(match.point->point_in_map);
-      group.covariance.push_back(match.point->covariance);
-      group.outlier_density.push_back(outlier_density[static_cast<std::size_t>(i)]);
-    } else {
-      RayGroup& group = rays[{match.query_camera, match.reference_camera}];
-      group.query = match.query_camera;
-      group.reference = match.reference_camera;
-      group.match.push_back(i);
-      group.query_pixel.push_back(match.query_pixel);
-      group.reference_pixel.push_back(match.reference_pixel);
-      group.outlier_density.push_back(outlier_density[static_cast<std::size_t>(i)]);
-    }
-  }
-  for (auto& [key, group] : points) point_groups.push_back(std::move(group));
-  for (auto& [key, group] : rays) ray_groups.push_back(std::move(group));
-  terms = likelihoodTerms(problem, options, inverse_depth_prior, point_groups, ray_groups);
+      outlier_density(problem),
+      matches(problem) {
+  setInlierPrior(options.inlier_prior);
+}
+
+void PoseLikelihood::Prepared::setInlierPrior(double inlier_prior) {
+  options.inlier_prior = inlier_prior;
+  matches.setOutlierDensity(options.level_outliers
+                                ? outlier_density.at(inlier_prior)
+                                : std::vector<double>(static_cast<std::size_t>(matches.match_count), 1));
+  terms = likelihoodTerms(matches, options, inverse_depth_prior);
 }
 
 PoseLikelihood::PoseLikelihood(const PoseProblem& problem, const LikelihoodOptions& options) {
@@ -58,18 +37,30 @@ PoseLikelihood::PoseLikelihood(const PoseProblem& problem, const LikelihoodOptio
   options.check();
   prepared_ = std::make_unique<Prepared>(problem, options);
 }
+
+PoseLikelihood PoseLikelihood::withInlierPrior(double inlier_prior) const {
+  LikelihoodOptions options = prepared_->options;
+  options.inlier_prior = inlier_prior;
+  options.check();
+  PoseLikelihood other;
+  other.prepared_ = std::make_unique<Prepared>(*prepared_);
+  other.prepared_->setInlierPrior(inlier_prior);
+  return other;
+}
+
+PoseLikelihood::PoseLikelihood() = default;
 PoseLikelihood::~PoseLikelihood() = default;
 PoseLikelihood::PoseLikelihood(PoseLikelihood&&) noexcept = default;
 PoseLikelihood& PoseLikelihood::operator=(PoseLikelihood&&) noexcept = default;
 
-int PoseLikelihood::matchCount() const { return prepared_->match_count; }
+int PoseLikelihood::matchCount() const { return prepared_->matches.match_count; }
 
 double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
   const Prepared& p = *prepared_;
   const double prior = p.options.inlier_prior, outlier = 1 - prior;
   // log(1 - e + e p / u) = log(1 - e) + log(1 + e p / (u (1 - e))): most matches add only the first part, and the
   // product of the second runs several matches to a logarithm.
-  double sum = p.match_count * std::log(outlier);
+  double sum = p.matches.match_count * std::log(outlier);
   const double odds = prior / outlier;
   double product = 1;
   const auto addRatio = [&](int, const MatchResidual& residual) {

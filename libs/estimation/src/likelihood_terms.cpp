@@ -140,48 +140,55 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
 }
 
 /// Whether single precision holds all numbers of the problem, but for where on the ground the map is.
-bool fitsSinglePrecision(const PoseProblem& problem, const LikelihoodOptions& options) {
+bool fitsSinglePrecision(const MatchGroups& matches, const LikelihoodOptions& options) {
   const double sigma = options.sigma_px;
   const auto cameraFits = [&](const PinholeCamera& camera, const Rigid3& pose) {
     return std::max({camera.fx, camera.fy, std::abs(camera.cx), std::abs(camera.cy)}) < reach * std::min(sigma, 1.0) &&
            std::min(camera.fx, camera.fy) > 1 && std::abs(pose.translation().z()) < reach;
   };
-  const auto matchFits = [&](const Match& match) {
-    return match.query_pixel.norm() < reach * std::min(sigma, 1.0) && match.reference_pixel.norm() < reach &&
-           (!match.point || (std::abs(match.point->point_in_map.z()) < reach && match.point->covariance.trace() < 1e4));
-  };
+  const auto queryPixelFits = [&](const Eigen::Vector2d& pixel) { return pixel.norm() < reach * std::min(sigma, 1.0); };
+  const auto referencePixelFits = [](const Eigen::Vector2d& pixel) { return pixel.norm() < reach; };
+  const auto pointFits = [](const Eigen::Vector3d& point) { return std::abs(point.z()) < reach; };
+  const auto covarianceFits = [](const Eigen::Matrix3d& covariance) { return covariance.trace() < 1e4; };
   return sigma >= 0.01 && sigma <= 1e4 &&
-         std::all_of(problem.query_cameras.begin(), problem.query_cameras.end(),
-                     [&](const QueryCamera& query) {
-                       return cameraFits(query.camera, query.robot_from_camera) &&
-                              query.robot_from_camera.translation().norm() < reach;
-                     }) &&
-         std::all_of(problem.reference_cameras.begin(), problem.reference_cameras.end(),
-                     [&](const ReferenceCamera& reference) {
-                       return cameraFits(reference.camera, reference.map_from_camera);
-                     }) &&
-         std::all_of(problem.matches.begin(), problem.matches.end(), matchFits);
+         std::ranges::all_of(matches.query_cameras,
+                             [&](const QueryCamera& query) {
+                               return cameraFits(query.camera, query.robot_from_camera) &&
+                                      query.robot_from_camera.translation().norm() < reach;
+                             }) &&
+         std::ranges::all_of(matches.reference_cameras,
+                             [&](const ReferenceCamera& reference) {
+                               return cameraFits(reference.camera, reference.map_from_camera);
+                             }) &&
+         std::ranges::all_of(matches.points,
+                             [&](const PointGroup& group) {
+                               return std::ranges::all_of(group.pixel, queryPixelFits) &&
+                                      std::ranges::all_of(group.point_in_map, pointFits) &&
+                                      std::ranges::all_of(group.covariance, covarianceFits);
+                             }) &&
+         std::ranges::all_of(matches.rays, [&](const RayGroup& group) {
+           return std::ranges::all_of(group.query_pixel, queryPixelFits) &&
+                  std::ranges::all_of(group.reference_pixel, referencePixelFits);
+         });
 }
 
 /// Positions on the ground that the terms hold.
-std::vector<Eigen::Vector2d> places(const PoseProblem& problem, std::span<const PointGroup> points,
-                                    std::span<const RayGroup> rays) {
+std::vector<Eigen::Vector2d> places(const MatchGroups& matches) {
   std::vector<Eigen::Vector2d> result;
-  for (const PointGroup& group : points)
+  for (const PointGroup& group : matches.points)
     for (const Eigen::Vector3d& point : group.point_in_map) result.push_back(point.head<2>());
-  for (const RayGroup& group : rays)
-    result.push_back(problem.reference_cameras[std::size_t(group.reference)].map_from_camera.translation().head<2>());
+  for (const RayGroup& group : matches.rays)
+    result.push_back(matches.reference_cameras[std::size_t(group.reference)].map_from_camera.translation().head<2>());
   return result;
 }
 
 }  // namespace
 
-std::optional<LikelihoodTerms> likelihoodTerms(const PoseProblem& problem, const LikelihoodOptions& options,
-                                               const InverseDepthPrior& prior, std::span<const PointGroup> points,
-                                               std::span<const RayGroup> rays) {
-  if (!fitsSinglePrecision(problem, options)) return std::nullopt;
+std::optional<LikelihoodTerms> likelihoodTerms(const MatchGroups& matches, const LikelihoodOptions& options,
+                                               const InverseDepthPrior& prior) {
+  if (!fitsSinglePrecision(matches, options)) return std::nullopt;
   LikelihoodTerms result;
-  const std::vector<Eigen::Vector2d> all = places(problem, points, rays);
+  const std::vector<Eigen::Vector2d> all = places(matches);
   result.origin.setZero();
   for (const Eigen::Vector2d& place : all) result.origin += place / static_cast<double>(all.size());
   double extent = 0;
@@ -193,19 +200,19 @@ std::optional<LikelihoodTerms> likelihoodTerms(const PoseProblem& problem, const
     for (const auto& group : groups)
       for (const double density : group.outlier_density) least_density = std::min(least_density, density);
   };
-  addDensities(points);
-  addDensities(rays);
+  addDensities(matches.points);
+  addDensities(matches.rays);
   double largest_factor = 1;
-  for (const QueryCamera& query : problem.query_cameras)
+  for (const QueryCamera& query : matches.query_cameras)
     largest_factor = std::max(largest_factor, 1 + peakOdds(query.camera, options) / least_density);
   result.matches_per_renormal = static_cast<int>(std::min(125 / std::log2(largest_factor), 1e6));
   if (result.matches_per_renormal < 1) return std::nullopt;
-  result.outlier_sum = static_cast<double>(problem.matches.size()) * std::log(1 - options.inlier_prior);
-  const auto queryOf = [&](const auto& group) { return problem.query_cameras[std::size_t(group.query)]; };
-  for (const PointGroup& group : points)
+  result.outlier_sum = matches.match_count * std::log(1 - options.inlier_prior);
+  const auto queryOf = [&](const auto& group) { return matches.query_cameras[std::size_t(group.query)]; };
+  for (const PointGroup& group : matches.points)
     result.points.push_back(pointTerms(group, queryOf(group), options, result.origin, extent));
-  for (const RayGroup& group : rays)
-    result.rays.push_back(rayTerms(group, queryOf(group), problem.reference_cameras[std::size_t(group.reference)],
+  for (const RayGroup& group : matches.rays)
+    result.rays.push_back(rayTerms(group, queryOf(group), matches.reference_cameras[std::size_t(group.reference)],
                                    options, prior, result.origin, extent));
   return result;
 }

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "vmcl/geometry/pose_problem.h"
+
 namespace vmcl {
 
 /// Matches with depth seen by one query camera.
@@ -24,6 +26,20 @@ struct RayGroup {
   std::vector<Eigen::Vector2d> query_pixel;
   std::vector<Eigen::Vector2d> reference_pixel;
   std::vector<double> outlier_density;  ///< at the query pixel, over one uniform in the image
+};
+
+/// The matches of a problem, those evaluated alike together.
+struct MatchGroups {
+  explicit MatchGroups(const PoseProblem& problem);
+
+  /// By index of the match.
+  void setOutlierDensity(const std::vector<double>& density);
+
+  std::vector<QueryCamera> query_cameras;
+  std::vector<ReferenceCamera> reference_cameras;
+  std::vector<PointGroup> points;
+  std::vector<RayGroup> rays;
+  int match_count = 0;
 };
 
 }  // namespace vmcl

@@ -10,8 +10,28 @@
 #include "vmcl/estimation/one_point_one_depth.h"
 
 namespace vmcl {
+namespace {
 
-MinimalSampler::MinimalSampler(const PoseProblem& problem) {
+// Samples are numbered in the combinatorial number system.
+uint64_t pairsOf(uint64_t n) { return n * (n - 1) / 2; }
+uint64_t triplesOf(uint64_t n) { return n < 3 ? 0 : n * (n - 1) / 2 * (n - 2) / 3; }
+
+/// Largest n of which there are no more combinations than `number`.
+template <class CombinationsOf>
+uint64_t largestOf(uint64_t number, CombinationsOf&& combinations_of) {
+  uint64_t high = 1;
+  while (combinations_of(high) <= number) high *= 2;
+  uint64_t low = high / 2;
+  while (high - low > 1) {
+    const uint64_t middle = (low + high) / 2;
+    (combinations_of(middle) <= number ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+MinimalSampler::MinimalSampler(const PoseProblem& problem, uint64_t seed) : random_(seed) {
   for (const Match& match : problem.matches) {
     const RayToRay rays = raysOfMatch(problem, match);
     if (match.point) {
@@ -40,9 +60,10 @@ bool MinimalSampler::canDraw(Solver kind) const {
 }
 
 double MinimalSampler::sampleCount(Solver kind) const {
+  constexpr double many = 0x1p53;  // integers up to here are exact
   const auto n = static_cast<double>(rays_.size()), d = static_cast<double>(with_depth_.size());
-  if (kind == Solver::two_depth) return d * (d - 1) / 2;
-  return kind == Solver::three_rays ? n * (n - 1) * (n - 2) / 6 : d * (n - 1);
+  if (kind == Solver::two_depth) return std::min(d * (d - 1) / 2, many);
+  return std::min(kind == Solver::three_rays ? n * (n - 1) * (n - 2) / 6 : d * (n - 1), many);
 }
 
 double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inliers) const {
@@ -54,59 +75,37 @@ double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inli
   return kind == Solver::three_rays ? any * any * any : deep * any;
 }
 
-void MinimalSampler::draw(Solver kind, int count, Random& random, std::vector<PlanarTransform>& poses) const {
-  if (kind == Solver::one_point_one_depth) drawOnePointOneDepth(count, random, poses);
-  if (kind == Solver::two_depth) drawTwoDepth(count, random, poses);
-  if (kind == Solver::three_rays) drawThreeRays(count, random, poses);
-}
-
-void MinimalSampler::drawOnePointOneDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const {
-  const auto add = [&](std::size_t depth, std::size_t other) {
-    if (other >= static_cast<std::size_t>(match_of_depth_[depth])) ++other;
-    const PlanarRoots roots = solveOnePointOneDepth(with_depth_[depth], rays_[other]);
-    poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
-  };
-  const std::size_t n = with_depth_.size(), others = rays_.size() - 1;
-  if (n * others <= static_cast<std::size_t>(count)) {
-    for (std::size_t depth = 0; depth < n; ++depth)
-      for (std::size_t other = 0; other < others; ++other) add(depth, other);
-    return;
-  }
+void MinimalSampler::draw(Solver kind, int count, std::vector<PlanarTransform>& poses) {
+  EvenOrder& order = orders_.try_emplace(kind, static_cast<uint64_t>(sampleCount(kind)), random_).first->second;
   for (int i = 0; i < count; ++i) {
-    const uint32_t depth = random.below(static_cast<uint32_t>(n));
-    add(depth, random.below(static_cast<uint32_t>(others)));
+    const uint64_t sample = order.next();
+    if (kind == Solver::one_point_one_depth) addOnePointOneDepth(sample, poses);
+    if (kind == Solver::two_depth) addTwoDepth(sample, poses);
+    if (kind == Solver::three_rays) addThreeRays(sample, poses);
   }
 }
 
-void MinimalSampler::drawTwoDepth(int count, Random& random, std::vector<PlanarTransform>& poses) const {
-  const auto add = [&](std::size_t first, std::size_t second) {
-    const std::array<RayToPoint, 2> pair{with_depth_[first], with_depth_[second]};
-    if (const auto pose = solveDepthPoints(pair)) poses.push_back(*pose);
-  };
-  const std::size_t n = with_depth_.size();
-  if (n * (n - 1) / 2 <= static_cast<std::size_t>(count)) {
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = i + 1; k < n; ++k) add(i, k);
-    return;
-  }
-  for (int i = 0; i < count; ++i) {
-    const uint32_t first = random.below(static_cast<uint32_t>(n));
-    uint32_t second = random.below(static_cast<uint32_t>(n - 1));
-    if (second >= first) ++second;
-    add(first, second);
-  }
+void MinimalSampler::addOnePointOneDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const {
+  const std::size_t depth = sample / (rays_.size() - 1);
+  std::size_t other = sample % (rays_.size() - 1);
+  if (other >= static_cast<std::size_t>(match_of_depth_[depth])) ++other;
+  const PlanarRoots roots = solveOnePointOneDepth(with_depth_[depth], rays_[other]);
+  poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
 }
 
-void MinimalSampler::drawThreeRays(int count, Random& random, std::vector<PlanarTransform>& poses) const {
-  const auto any = [&] { return random.below(static_cast<uint32_t>(rays_.size())); };
-  for (int i = 0; i < count; ++i) {
-    const uint32_t a = any();
-    uint32_t b = any(), c = any();
-    while (b == a) b = any();
-    while (c == a || c == b) c = any();
-    const std::vector<PlanarTransform> found = solveThreeRays({rays_[a], rays_[b], rays_[c]});
-    poses.insert(poses.end(), found.begin(), found.end());
-  }
+void MinimalSampler::addTwoDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const {
+  const uint64_t second = largestOf(sample, pairsOf);
+  const std::array<RayToPoint, 2> pair{with_depth_[sample - pairsOf(second)], with_depth_[second]};
+  if (const auto pose = solveDepthPoints(pair)) poses.push_back(*pose);
+}
+
+void MinimalSampler::addThreeRays(uint64_t sample, std::vector<PlanarTransform>& poses) const {
+  const uint64_t third = largestOf(sample, triplesOf);
+  sample -= triplesOf(third);
+  const uint64_t second = largestOf(sample, pairsOf);
+  const std::vector<PlanarTransform> found =
+      solveThreeRays({rays_[sample - pairsOf(second)], rays_[second], rays_[third]});
+  poses.insert(poses.end(), found.begin(), found.end());
 }
 
 }  // namespace vmcl

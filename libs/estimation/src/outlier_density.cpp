@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace vmcl {
 namespace {
 
-/// Elevation of a ray on a scale that is linear near the horizon, where pixel noise counts, and logarithmic beyond.
-double elevation(const Eigen::Vector3d& direction) {
+/// Elevation of a ray on a scale that is linear near the horizon, where pixel noise counts, and logarithmic beyond: the
+/// hyperbolic area sine of this.
+double steepness(const Eigen::Vector3d& direction) {
   constexpr double horizon = 0.01;  // slope up to which the scale is linear
   constexpr double zenith = 1e-6;   // nearer to it the scale ends
-  return std::asinh(direction.z() / (horizon * std::hypot(direction.head<2>().norm(), zenith * direction.norm())));
+  return direction.z() / (horizon * std::hypot(direction.head<2>().norm(), zenith * direction.norm()));
 }
 
 /// A match as its elevation in the query image, less that in the reference image.
@@ -25,45 +27,53 @@ ElevationChange elevationChange(const PoseProblem& problem, const Match& match) 
   const QueryCamera& query = problem.query_cameras[static_cast<std::size_t>(match.query_camera)];
   const ReferenceCamera& reference = problem.reference_cameras[static_cast<std::size_t>(match.reference_camera)];
   const auto at = [&](const Eigen::Vector2d& pixel) {
-    return elevation(query.robot_from_camera.linear() * query.camera.ray(pixel));
+    return steepness(query.robot_from_camera.linear() * query.camera.ray(pixel));
   };
   const double here = at(match.query_pixel);
+  const double there = steepness(reference.map_from_camera.linear() * reference.camera.ray(match.reference_pixel));
   const double rate = std::hypot(at(match.query_pixel + Eigen::Vector2d::UnitX()) - here,
-                                 at(match.query_pixel + Eigen::Vector2d::UnitY()) - here);
-  return {here - elevation(reference.map_from_camera.linear() * reference.camera.ray(match.reference_pixel)),
-          rate * query.camera.height};
+                                 at(match.query_pixel + Eigen::Vector2d::UnitY()) - here) /
+                      std::hypot(1, here);
+  return {std::asinh(here) - std::asinh(there), rate * query.camera.height};
+}
+
+double levelDensity(const ElevationChange& c, double spread) {
+  const double z = c.change / spread;
+  return std::exp(-0.5 * z * z) / (spread * std::sqrt(2 * std::numbers::pi)) * c.per_image;
 }
 
 }  // namespace
 
-std::vector<double> outlierDensity(const PoseProblem& problem, double inlier_prior) {
+OutlierDensity::OutlierDensity(const PoseProblem& problem) {
   constexpr double prior_share = 0.5;   // before any match is seen
   constexpr double prior_spread = 0.7;  // likewise, of the factor's logarithm: half or twice is one deviation
   constexpr double pseudo_matches = 4;  // that stand for both priors
   constexpr double max_share = 0.9;     // some matches lie anywhere
-  constexpr int iterations = 10;        // of expectation maximization
+  constexpr int max_iterations = 10;    // of expectation maximization
+  constexpr double settled = 1e-3;      // of spread and share
   std::vector<ElevationChange> changes;
   for (const Match& match : problem.matches) changes.push_back(elevationChange(problem, match));
-  double share = prior_share, spread = prior_spread;
-  std::vector<double> density(changes.size(), 1);
-  const auto level = [&](const ElevationChange& c) {
-    const double z = c.change / spread;
-    return std::exp(-0.5 * z * z) / (spread * std::sqrt(2 * std::numbers::pi)) * c.per_image;
-  };
-  for (int iteration = 0; iteration < iterations; ++iteration) {
+  share_ = prior_share;
+  double spread = prior_spread;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     double count = pseudo_matches * prior_share, sum_of_squares = count * prior_spread * prior_spread;
     for (const ElevationChange& c : changes) {
-      const double of_level = share * level(c), responsibility = of_level / (of_level + 1 - share);
+      const double of_level = share_ * levelDensity(c, spread), responsibility = of_level / (of_level + 1 - share_);
       count += responsibility;
       sum_of_squares += responsibility * c.change * c.change;
     }
-    share = std::min(max_share, count / (pseudo_matches + static_cast<double>(changes.size())));
-    spread = std::sqrt(sum_of_squares / count);
+    const double last_share =
+        std::exchange(share_, std::min(max_share, count / (pseudo_matches + static_cast<double>(changes.size()))));
+    const double last_spread = std::exchange(spread, std::sqrt(sum_of_squares / count));
+    if (std::abs(share_ - last_share) < settled && std::abs(spread - last_spread) < settled) break;
   }
-  // The inliers are level as well: of those that are left, fewer are.
-  share = std::max(0.0, (share - inlier_prior) / (1 - inlier_prior));
-  std::transform(changes.begin(), changes.end(), density.begin(),
-                 [&](const ElevationChange& c) { return share * level(c) + 1 - share; });
+  for (const ElevationChange& c : changes) level_.push_back(levelDensity(c, spread));
+}
+
+std::vector<double> OutlierDensity::at(double inlier_prior) const {
+  const double share = std::max(0.0, (share_ - inlier_prior) / (1 - inlier_prior));
+  std::vector<double> density;
+  for (const double level : level_) density.push_back(share * level + 1 - share);
   return density;
 }
 

@@ -66,8 +66,7 @@ void PoseRefiner::linearize(std::span<const PlanarTransform> poses, std::span<Pl
   }
 }
 
-std::vector<ClimbedPose> PoseRefiner::climb(std::span<const PlanarTransform> starts) const {
-  constexpr int max_steps = 15;
+std::vector<ClimbedPose> PoseRefiner::climb(std::span<const PlanarTransform> starts, int max_steps) const {
   std::vector<PlanarTransform> poses(starts.begin(), starts.end());
   std::vector<PlanarSlope> slopes(starts.size());
   linearize(poses, slopes);

@@ -195,7 +195,7 @@ double PoseRefiner::inlierRate(const RefinedPose& pose) const {
   for (int i = 0; i < 20; ++i) {
     double inliers = prior_matches * p.options.inlier_prior;
     for (const double ratio : ratios) inliers += responsibility(ratio, rate);
-    rate = inliers / (prior_matches + p.match_count);
+    rate = inliers / (prior_matches + p.matches.match_count);
   }
   return rate;
 }

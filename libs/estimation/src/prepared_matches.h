@@ -7,6 +7,7 @@
 #include "likelihood_terms.h"
 #include "match_groups.h"
 #include "match_likelihood.h"
+#include "outlier_density.h"
 #include "vmcl/estimation/likelihood.h"
 #include "vmcl/geometry/pose_problem.h"
 
@@ -15,14 +16,12 @@ namespace vmcl {
 /// What every evaluation of the likelihood needs, laid out for its loops.
 struct PoseLikelihood::Prepared {
   Prepared(const PoseProblem& problem, const LikelihoodOptions& options);
+  void setInlierPrior(double inlier_prior);
 
   LikelihoodOptions options;
   InverseDepthPrior inverse_depth_prior;
-  std::vector<QueryCamera> query_cameras;
-  std::vector<ReferenceCamera> reference_cameras;
-  std::vector<PointGroup> point_groups;
-  std::vector<RayGroup> ray_groups;
-  int match_count = 0;
+  OutlierDensity outlier_density;
+  MatchGroups matches;
   std::optional<LikelihoodTerms> terms;  ///< for many planar poses at once
 
   /// Evaluates every match at one pose: on_match(index, residual) for those that the pose explains at all. Without
@@ -30,17 +29,17 @@ struct PoseLikelihood::Prepared {
   template <bool with_derivatives = true, class OnMatch>
   void visit(const Rigid3& map_from_robot, OnMatch&& on_match) const {
     MatchResidual residual;
-    for (const PointGroup& group : point_groups) {
-      const PointView view(query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options);
+    for (const PointGroup& group : matches.points) {
+      const PointView view(matches.query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options);
       for (std::size_t i = 0; i < group.pixel.size(); ++i) {
         view.evaluate(group.pixel[i], group.point_in_map[i], group.covariance[i], residual);
         residual.likelihood_ratio /= group.outlier_density[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }
-    for (const RayGroup& group : ray_groups) {
-      const RayView view(query_cameras[static_cast<std::size_t>(group.query)],
-                         reference_cameras[static_cast<std::size_t>(group.reference)], map_from_robot, options,
+    for (const RayGroup& group : matches.rays) {
+      const RayView view(matches.query_cameras[static_cast<std::size_t>(group.query)],
+                         matches.reference_cameras[static_cast<std::size_t>(group.reference)], map_from_robot, options,
                          inverse_depth_prior);
       for (std::size_t i = 0; i < group.query_pixel.size(); ++i) {
         view.template evaluate<with_derivatives>(group.query_pixel[i], group.reference_pixel[i], residual);

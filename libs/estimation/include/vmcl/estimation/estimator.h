@@ -19,7 +19,7 @@ struct EstimatorOptions {
   int iterations = 20000;  ///< most random samples drawn, at least 1; easy problems need few
   uint64_t seed = 1;       ///< same seed, same answer
   LikelihoodOptions likelihood;
-  int refined = 20;   ///< best hypotheses that are optimized, at least 1
+  int refined = 32;   ///< best hypotheses that are optimized, at least 1
   int max_modes = 5;  ///< modes reported, at least 1
   SoftPlane plane;    ///< unmodelled tilt and height of the robot
 

@@ -39,6 +39,9 @@ class PoseLikelihood {
   PoseLikelihood(PoseLikelihood&&) noexcept;
   PoseLikelihood& operator=(PoseLikelihood&&) noexcept;
 
+  /// The same with another share of inliers, at a part of the cost.
+  PoseLikelihood withInlierPrior(double inlier_prior) const;
+
   /// L at one pose of the robot. Finite; a pose that is not explains nothing. Thread safe.
   double operator()(const PlanarTransform& map_from_robot) const;
   double operator()(const PlanarPose& map_from_robot) const { return (*this)(PlanarTransform(map_from_robot)); }
@@ -55,6 +58,7 @@ class PoseLikelihood {
  private:
   friend class PoseRefiner;
   struct Prepared;
+  PoseLikelihood();
   std::unique_ptr<Prepared> prepared_;
 };
 

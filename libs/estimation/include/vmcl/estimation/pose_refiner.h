@@ -51,9 +51,9 @@ class PoseRefiner {
 
   RefinedPose refine(const PlanarTransform& start, int max_iterations = 20) const;
 
-  /// Climbs from many poses at once, on the plane and all but to the top, at a small part of the time: to see which are
-  /// worth refining. One result for each start, in order; none depends on the other starts.
-  std::vector<ClimbedPose> climb(std::span<const PlanarTransform> starts) const;
+  /// Climbs from many poses at once, on the plane and, with steps enough, all but to the top, at a small part of the
+  /// time: to see which are worth refining. One result for each start, in order; none depends on the other starts.
+  std::vector<ClimbedPose> climb(std::span<const PlanarTransform> starts, int max_steps = 15) const;
 
   /// Gradient and Gauss-Newton information of the likelihood over (x, y, phi, roll, pitch, height), matches weighted by
   /// their chance of being inliers. The gradient leaves out how the residuals' spread varies with the pose.
