@@ -14,7 +14,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "match_odds-inl.h"
+#include "point_odds-inl.h"
+#include "ray_odds-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vmcl {

@@ -28,7 +28,7 @@ inline constexpr double max_inverse_depth = 5;
 inline constexpr double unknown_scale = 100;
 
 /// Share of the points without depth that the prior of the inverse depth describes.
-inline constexpr double described_share = 0.9;
+inline constexpr double described_share = 0.7;
 
 /// Odds that a match of exact points and no residual is an inlier.
 inline double peakOdds(const PinholeCamera& camera, const LikelihoodOptions& options) {
