@@ -150,7 +150,7 @@ RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations
     objective += gain;
     damping = std::max(damping * 0.1, 1e-9);
     linear = withPrior(best);
-    if (gain < 1e-6) break;
+    if (gain < 1e-9) break;
   }
   setUncertainty(linear, best);
   return best;
