@@ -261,9 +261,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   const PoseRefiner climber(first_guess, {});
   const std::vector<Hypothesis> summits = summitsAbove(climber, starts);
   // Judged and optimized with the share of inliers that the best pose shows.
-  RefinedPose best_summit;
-  best_summit.map_from_robot = summits.front().pose.pose();
-  const double inlier_rate = climber.inlierRate(best_summit);
+  const double inlier_rate = climber.inlierRate(climber.refine(summits.front().pose));
   const PoseLikelihood likelihood = first_guess.withInlierPrior(inlier_rate);
   const PoseRefiner refiner(likelihood, options.plane);
   std::vector<RefinedHypothesis> peaks = refined(refiner, summits);

@@ -127,6 +127,7 @@ PoseRefiner::Linearization PoseRefiner::withPrior(const RefinedPose& pose) const
 }
 
 RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations) const {
+  constexpr double near_the_top = 1e-2, at_the_top = 1e-11;  // gain of L expected from a step
   const auto evaluate = [&](RefinedPose& pose) {
     pose.log_likelihood = likelihood_(pose.rigid());
     return pose.log_likelihood + logPrior(pose);
@@ -141,6 +142,14 @@ RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations
     const Vector6 step = damped.ldlt().solve(linear.gradient);
     if (!step.allFinite()) break;
     RefinedPose next = moved(best, step);
+    // Near the top the gradient leads, not L: it vanishes in one place, wherever the climb came from.
+    const double expected_gain = 0.5 * step.dot(linear.gradient);
+    if (expected_gain < near_the_top) {
+      best = next;
+      linear = withPrior(best);
+      if (expected_gain < at_the_top) break;
+      continue;
+    }
     const double gain = evaluate(next) - objective;
     if (!(gain > 0)) {
       damping *= 10;
@@ -150,8 +159,8 @@ RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations
     objective += gain;
     damping = std::max(damping * 0.1, 1e-9);
     linear = withPrior(best);
-    if (gain < 1e-9) break;
   }
+  evaluate(best);
   setUncertainty(linear, best);
   return best;
 }
