@@ -18,7 +18,7 @@
 namespace vmcl {
 namespace {
 
-constexpr int width = 32, height = 24;
+constexpr int image_width = 32, image_height = 24;
 constexpr double start = 1560000000;  // s, as in the data set
 
 /// The camera looks along x of base_link, 0.9 m above it: rows of base_link_from_camera.
@@ -108,8 +108,8 @@ class OpenLorisFolderTest : public OpenLorisTest {
       depth += std::to_string(start + 0.1 * i + 0.004) + " aligned_depth/" + name + "\n";
       odometry += time + " " + std::to_string(0.1 * i) + " 0 0 0 0 0 1 0.5 0 0 0 0 0\n";
       truth += time + " 1 2 0 0 0 0 1\n";
-      cv::imwrite(folder() / "color" / name, cv::Mat(height, width, CV_8UC3, cv::Scalar(10 * i, 80, 90)));
-      cv::imwrite(folder() / "aligned_depth" / name, cv::Mat(height, width, CV_16U, cv::Scalar(1500)));
+      cv::imwrite(folder() / "color" / name, cv::Mat(image_height, image_width, CV_8UC3, cv::Scalar(10 * i, 80, 90)));
+      cv::imwrite(folder() / "aligned_depth" / name, cv::Mat(image_height, image_width, CV_16U, cv::Scalar(1500)));
     }
     write("color.txt", colour);
     write("aligned_depth.txt", depth);
@@ -166,7 +166,7 @@ class OpenLorisBagTest : public OpenLorisTest {
     frames.header(start, "/base_link").text("laser").numbers({0.3, 0, 0.2, 0, 0, 0, 1});
     bag.write("/tf_static", ros::Time(start), frames);
     RosMessage camera{"sensor_msgs/CameraInfo", "c9a58c1b0b154e0e6da7578cb991d214", {}};
-    camera.header(start, "d400_color").put(uint32_t{height}).put(uint32_t{width}).text("plumb_bob");
+    camera.header(start, "d400_color").put(uint32_t{image_height}).put(uint32_t{image_width}).text("plumb_bob");
     camera.array(std::vector<double>{0.01, 0, 0, 0, 0}).numbers({30, 0, 15, 0, 31, 11, 0, 0, 1});
     camera.numbers(std::vector<double>(9 + 12)).put(uint32_t{0}).put(uint32_t{0});
     for (int i = 0; i < 4; ++i) camera.put(uint32_t{0});
@@ -178,15 +178,20 @@ class OpenLorisBagTest : public OpenLorisTest {
 
   static RosMessage image(double time, const std::string& encoding, const std::vector<uint8_t>& data) {
     RosMessage message{"sensor_msgs/Image", "060021388200f6f0f447d0fcd9c64743", {}};
-    message.header(time, "d400_color").put(uint32_t{height}).put(uint32_t{width}).text(encoding).put(uint8_t{0});
-    return message.put(static_cast<uint32_t>(data.size() / height)).array(data);
+    message.header(time, "d400_color")
+        .put(uint32_t{image_height})
+        .put(uint32_t{image_width})
+        .text(encoding)
+        .put(uint8_t{0});
+    return message.put(static_cast<uint32_t>(data.size() / image_height)).array(data);
   }
 
   static void add(rosbag::Bag& bag, double time, int number, double recorded) {
     const ros::Time stamp(recorded);
-    bag.write("/d400/color/image_raw", stamp, image(time, "rgb8", std::vector<uint8_t>(width * height * 3, 90)));
+    bag.write("/d400/color/image_raw", stamp,
+              image(time, "rgb8", std::vector<uint8_t>(image_width * image_height * 3, 90)));
     std::vector<uint8_t> depth;
-    for (int i = 0; i < width * height; ++i) depth.insert(depth.end(), {1500 % 256, 1500 / 256});
+    for (int i = 0; i < image_width * image_height; ++i) depth.insert(depth.end(), {1500 % 256, 1500 / 256});
     bag.write("/d400/aligned_depth_to_color/image_raw", stamp, image(time + 0.003, "16UC1", depth));
     RosMessage odometry{"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7", {}};
     odometry.header(time, "odom").text("base_link").numbers({0.1 * number, 0, 0, 0, 0, 0, 1});

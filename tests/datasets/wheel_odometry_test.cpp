@@ -63,5 +63,37 @@ TEST(WheelOdometry, errsByItsAlphasHoweverOftenItIsRead) {
   }
 }
 
+TEST(WheelOdometry, aSlipCountsWayAndTurnTooMuch) {
+  // No other noise: after 100 m with about 30 slips of 4 cm on average, each half of it on the way.
+  WheelOdometry odometry({.alpha1 = 0, .alpha2 = 0, .alpha3 = 0, .alpha4 = 0, .slips_per_m = 0.3, .slip = 0.05},
+                         Random(3));
+  PlanarPose last = odometry.read({});
+  double way = 0, turned = 0;
+  int slips = 0;
+  for (int i = 1; i <= 10000; ++i) {
+    const PlanarPose reading = odometry.read({0.01 * i, 0, 0}), motion = inverse(last) * reading;
+    way += motion.x;
+    turned += std::abs(motion.phi);
+    slips += std::abs(motion.phi) > 1e-9;
+    last = reading;
+  }
+  EXPECT_NEAR(slips, 30, 5 * std::sqrt(30.0));  // a Poisson count within five deviations
+  EXPECT_NEAR(way - 100, turned * 0.3 / 2, 1e-6);
+  EXPECT_GT(way, 100.1);
+}
+
+TEST(WheelOdometry, alpha5DriftsSideways) {
+  double sum_of_squares = 0;
+  constexpr int runs = 2000;
+  for (int run = 0; run < runs; ++run) {
+    WheelOdometry odometry({.alpha1 = 0, .alpha2 = 0, .alpha3 = 0, .alpha4 = 0, .alpha5 = 0.01},
+                           Random(5, static_cast<uint64_t>(run)));
+    odometry.read({});
+    const double drift = odometry.read({2, 0, 0}).y;
+    sum_of_squares += drift * drift;
+  }
+  EXPECT_NEAR(sum_of_squares / runs, 0.02, 5 * 0.02 * std::sqrt(2.0 / runs));  // within five standard errors
+}
+
 }  // namespace
 }  // namespace vmcl

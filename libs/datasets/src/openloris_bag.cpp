@@ -19,7 +19,7 @@ namespace {
 constexpr char colour_topic[] = "/d400/color/image_raw", camera_topic[] = "/d400/color/camera_info",
                depth_topic[] = "/d400/aligned_depth_to_color/image_raw", odometry_topic[] = "/odom",
                scan_topic[] = "/scan", truth_topic[] = "/gt", transform_topic[] = "/tf_static";
-constexpr int jpeg_quality = 95;
+constexpr int bag_jpeg_quality = 95;
 constexpr uint32_t max_side_px = 1 << 14;
 constexpr std::size_t max_problems = 20;
 
@@ -50,7 +50,7 @@ std::string encodedColour(RosImage& image) {
   else
     throw std::runtime_error("an image encoded as " + image.encoding.substr(0, 20));
   std::vector<uint8_t> bytes;
-  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, bag_jpeg_quality});
   return {bytes.begin(), bytes.end()};
 }
 

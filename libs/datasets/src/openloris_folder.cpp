@@ -17,26 +17,26 @@ namespace {
 
 constexpr char camera_frame[] = "d400_color_optical_frame";
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
   throw std::runtime_error(file.string() + ": " + reason);
 }
 
 cv::FileStorage openYaml(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) fail(file, "cannot be opened");
+  if (!std::filesystem::is_regular_file(file)) refuse(file, "cannot be opened");
   try {
     cv::FileStorage storage(file.string(), cv::FileStorage::READ);
     if (storage.isOpened() && storage.root().isMap()) return storage;
   } catch (const cv::Exception&) {
   }
-  fail(file, "is not a YAML file of OpenCV's kind");
+  refuse(file, "is not a YAML file of OpenCV's kind");
 }
 
 cv::Mat matrixOf(const cv::FileNode& node, const std::filesystem::path& file, int count) {
   cv::Mat matrix;
   if (!node.empty() && node.isMap()) node >> matrix;
-  if (static_cast<int>(matrix.total()) != count) fail(file, node.name() + " is missing or of another size");
+  if (static_cast<int>(matrix.total()) != count) refuse(file, node.name() + " is missing or of another size");
   matrix.convertTo(matrix, CV_64F);
-  if (!cv::checkRange(matrix)) fail(file, node.name() + " is not finite");
+  if (!cv::checkRange(matrix)) refuse(file, node.name() + " is not finite");
   return matrix.reshape(1, 1);
 }
 
@@ -44,7 +44,7 @@ cv::Mat matrixOf(const cv::FileNode& node, const std::filesystem::path& file, in
 mrpt::img::TCamera readIntrinsics(const std::filesystem::path& file) {
   cv::FileStorage storage = openYaml(file);
   const cv::FileNode node = storage[camera_frame];
-  if (!node.isMap()) fail(file, std::string(camera_frame) + " is missing");
+  if (!node.isMap()) refuse(file, std::string(camera_frame) + " is missing");
   const cv::Mat k = matrixOf(node["intrinsics"], file, 4);
   CameraCalibration calibration;
   calibration.pinhole = {static_cast<int>(node["width"]),
@@ -60,7 +60,7 @@ mrpt::img::TCamera readIntrinsics(const std::filesystem::path& file) {
   try {
     calibration.check();
   } catch (const std::invalid_argument& error) {
-    fail(file, error.what());
+    refuse(file, error.what());
   }
   mrpt::img::TCamera camera;
   camera.ncols = static_cast<uint32_t>(calibration.pinhole.width);
@@ -82,7 +82,7 @@ mrpt::poses::CPose3D readMountOfCamera(const std::filesystem::path& file) {
       for (int column = 0; column < 4; ++column)
         parent_from_child.matrix()(row, column) = m.at<double>(4 * row + column);
     if (!(parent_from_child.linear() * parent_from_child.linear().transpose()).isIdentity(1e-3))
-      fail(file, "a matrix is not a rotation and a translation");
+      refuse(file, "a matrix is not a rotation and a translation");
     frames.add(static_cast<std::string>(node["parent_frame"]), static_cast<std::string>(node["child_frame"]),
                parent_from_child);
   }
@@ -90,7 +90,7 @@ mrpt::poses::CPose3D readMountOfCamera(const std::filesystem::path& file) {
   try {
     pose.asEigen() = frames.between(openloris_robot_frame, camera_frame).matrix();
   } catch (const std::runtime_error& error) {
-    fail(file, error.what());
+    refuse(file, error.what());
   }
   return mrpt::poses::CPose3D(pose);
 }
@@ -139,7 +139,7 @@ class Folder {
     observation_.sensorLabel = "camera";
     observation_.cameraParams = readIntrinsics(directory / "sensors.yaml");
     observation_.cameraPose = readMountOfCamera(directory / "trans_matrix.yaml");
-    if (!std::filesystem::is_regular_file(directory / "color.txt")) fail(directory / "color.txt", "cannot be opened");
+    if (!std::filesystem::is_regular_file(directory / "color.txt")) refuse(directory / "color.txt", "cannot be opened");
     recording_.emplace(log, observation_);
   }
 

@@ -10,7 +10,7 @@
 namespace vmcl {
 namespace {
 
-mrpt::img::TCamera readCamera(YamlMap yaml) {
+mrpt::img::TCamera readTumCamera(YamlMap yaml) {
   const PinholeCamera pinhole{yaml.get<int>("width"), yaml.get<int>("height"), yaml.get<double>("fx"),
                               yaml.get<double>("fy"), yaml.get<double>("cx"),  yaml.get<double>("cy")};
   const auto k = yaml.numbers("distortion", 5);
@@ -30,7 +30,7 @@ TumCalibration readTumCalibration(const std::filesystem::path& file) {
   YamlMap yaml = YamlMap::read(file);
   TumCalibration calibration;
   try {
-    calibration.camera = readCamera(yaml.map("camera"));
+    calibration.camera = readTumCamera(yaml.map("camera"));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

@@ -9,7 +9,7 @@
 namespace vmcl {
 namespace {
 
-using Painter = void (*)(const Canvas&);
+using DecorationPainter = void (*)(const Canvas&);
 
 /// Paints a frame along the border and returns what is left inside.
 Canvas framed(const Canvas& canvas, double thickness, const cv::Scalar& color) {
@@ -98,22 +98,22 @@ void paintDoor(const Canvas& canvas) {
   leaf.line(leaf.width() * 0.92, leaf.height() * 0.5, leaf.width() * 0.8, leaf.height() * 0.5, 0.025, {60, 70, 75});
 }
 
-const std::map<std::string, Painter>& painters() {
-  static const std::map<std::string, Painter> painters{
+const std::map<std::string, DecorationPainter>& decorationPainters() {
+  static const std::map<std::string, DecorationPainter> decorationPainters{
       {"door", paintDoor}, {"painting", paintPainting}, {"poster", paintPoster}, {"window", paintWindow}};
-  return painters;
+  return decorationPainters;
 }
 
 }  // namespace
 
-bool isDecoration(const std::string& kind) { return painters().contains(kind); }
+bool isDecoration(const std::string& kind) { return decorationPainters().contains(kind); }
 
 std::string decorationNames() {
   std::string names;
-  for (const auto& [name, painter] : painters()) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, painter] : decorationPainters()) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
-void paintDecoration(const std::string& kind, const Canvas& canvas) { painters().at(kind)(canvas); }
+void paintDecoration(const std::string& kind, const Canvas& canvas) { decorationPainters().at(kind)(canvas); }
 
 }  // namespace vmcl

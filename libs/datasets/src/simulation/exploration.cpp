@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double cell = 0.1;         // m
-constexpr double berth = 0.12;       // m that the way keeps from obstacles beyond the robot's radius: room for corners
+constexpr double road_cell = 0.1;    // m
+constexpr double road_berth = 0.12;  // m that the way keeps from obstacles beyond the robot's radius: room for corners
 constexpr double least_way = 1.0;    // m to a goal, as the crow flies
 constexpr int max_attempts = 200;    // goals that turn out not to be reachable, one after the other
 constexpr double time_step = 0.015;  // s; a path that ends within it is as long as asked for
@@ -26,15 +26,15 @@ class Roadmap {
  public:
   Roadmap(const FloorPlan& plan, double berth_radius) : plan_(plan), radius_(berth_radius) {
     const Vector2d extent = plan.high() - plan.low();
-    room_ = cv::Mat_<uchar>(std::max(1, static_cast<int>(extent.y() / cell)),
-                            std::max(1, static_cast<int>(extent.x() / cell)), uchar{0});
+    room_ = cv::Mat_<uchar>(std::max(1, static_cast<int>(extent.y() / road_cell)),
+                            std::max(1, static_cast<int>(extent.x() / road_cell)), uchar{0});
     for (int y = 0; y < room_.rows; ++y)
       for (int x = 0; x < room_.cols; ++x) room_(y, x) = plan.clearance(placeOf({x, y})) > radius_;
   }
 
-  Vector2d placeOf(const cv::Point& at) const { return plan_.low() + cell * Vector2d(at.x + 0.5, at.y + 0.5); }
+  Vector2d placeOf(const cv::Point& at) const { return plan_.low() + road_cell * Vector2d(at.x + 0.5, at.y + 0.5); }
   cv::Point cellOf(const Vector2d& place) const {
-    const Vector2d at = (place - plan_.low()) / cell;
+    const Vector2d at = (place - plan_.low()) / road_cell;
     return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
   }
 
@@ -120,7 +120,7 @@ class Roadmap {
   bool hasRoom(const cv::Point& at) const { return cv::Rect({}, room_.size()).contains(at) && room_(at); }
 
   bool isStraight(const Vector2d& from, const Vector2d& to) const {
-    const int steps = 1 + static_cast<int>((to - from).norm() / (cell / 2));
+    const int steps = 1 + static_cast<int>((to - from).norm() / (road_cell / 2));
     for (int i = 0; i <= steps; ++i)
       if (plan_.clearance(from + static_cast<double>(i) / steps * (to - from)) <= radius_) return false;
     return true;
@@ -135,7 +135,7 @@ class Roadmap {
 
 Trajectory explore(const RobotModel& robot, const FloorPlan& plan, const std::optional<PlanarPose>& start,
                    double start_time, double duration, Random& random) {
-  const Roadmap map(plan, robot.radius + berth);
+  const Roadmap map(plan, robot.radius + road_berth);
   const auto cells = map.largestRegion();
   if (cells.empty()) throw std::runtime_error("there is no room to drive");
   const auto anyCell = [&] { return cells[random.below(static_cast<uint32_t>(cells.size()))]; };

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double step_height = 0.04;  // m that wheels run over: carpets, door sills
 constexpr double max_cells = 4e6;
-constexpr double margin = 0.5;  // m around the scene
+constexpr double scene_margin = 0.5;  // m around the scene
 
 /// The part of a polygon above (sign 1) or below (sign -1) a height.
 std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon, double height, double sign) {
@@ -39,8 +39,8 @@ FloorPlan::FloorPlan(const std::vector<Triangle>& triangles, double robot_height
       low = low.cwiseMin(corner.head<2>());
       high = high.cwiseMax(corner.head<2>());
     }
-  low_ = low - Vector2d::Constant(margin);
-  const Vector2d extent = high - low + Vector2d::Constant(2 * margin);
+  low_ = low - Vector2d::Constant(scene_margin);
+  const Vector2d extent = high - low + Vector2d::Constant(2 * scene_margin);
   cell_ = std::max(cell_, std::sqrt(extent.prod() / max_cells));
   objects_ = cv::Mat_<int>(static_cast<int>(std::ceil(extent.y() / cell_)),
                            static_cast<int>(std::ceil(extent.x() / cell_)), -1);

@@ -83,8 +83,8 @@ cv::Mat ImageFormation::depth(const cv::Mat& ideal_depth, Random& random) const 
     for (int column = 0; column < metres.cols; ++column) {
       const double z = metres.at<float>(row, column);
       const double measured = z + model.sigma * z * z * random.normal();
-      const bool is_valid = z > 0 && measured > 0 && measured <= model.max_range;
-      millimetres.at<uint16_t>(row, column) = is_valid ? static_cast<uint16_t>(std::lround(1000 * measured)) : 0;
+      const bool is_valid = z > 0 && z <= model.max_range && measured > 0;
+      millimetres.at<uint16_t>(row, column) = is_valid ? cv::saturate_cast<uint16_t>(1000 * measured) : 0;
     }
   return millimetres;
 }

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double step = 0.02;           // s
+constexpr double walk_step = 0.02;      // s
 constexpr double waits_within = 0.9;    // m of the robot
 constexpr double steps_aside = 0.6;     // m
 constexpr double turn_rate = 4;         // rad/s
@@ -77,19 +77,19 @@ std::vector<Crowd::Stance> Crowd::walk(const Person& person, const Trajectory& r
     const Vector2d ahead = along(person.path, 0).second;
     stance.map_from_person.phi = std::atan2(ahead.y(), ahead.x());
   }
-  for (double time = start_time_; time <= robot.poses().back().time; time += step) {
+  for (double time = start_time_; time <= robot.poses().back().time; time += walk_step) {
     const Vector2d robot_place = robot.at(time).value_or(Rigid3::Identity()).translation().head<2>();
-    const auto [next, direction] = walks ? along(person.path, stance.walked + step * person.speed)
+    const auto [next, direction] = walks ? along(person.path, stance.walked + walk_step * person.speed)
                                          : std::pair(person.path.front(), Vector2d(1, 0));
     const Vector2d here = walks ? along(person.path, stance.walked).first : next;
     const bool approaches = (next - robot_place).norm() < (here - robot_place).norm();
     const bool waits = time < start_time_ + person.start || ((next - robot_place).norm() < waits_within && approaches);
     const bool moves = walks && !waits;
-    stance.stride += std::clamp((moves ? 1.0 : 0.0) - stance.stride, -3 * step, 3 * step);
+    stance.stride += std::clamp((moves ? 1.0 : 0.0) - stance.stride, -3 * walk_step, 3 * walk_step);
     if (moves) {
-      stance.walked += step * person.speed;
+      stance.walked += walk_step * person.speed;
       const double turn = wrapAngle(std::atan2(direction.y(), direction.x()) - stance.map_from_person.phi);
-      stance.map_from_person.phi += std::clamp(turn, -turn_rate * step, turn_rate * step);
+      stance.map_from_person.phi += std::clamp(turn, -turn_rate * walk_step, turn_rate * walk_step);
     }
     Vector2d place = moves ? next : here;
     const Vector2d off = place - robot_place;
@@ -105,7 +105,7 @@ std::vector<Crowd::Stance> Crowd::walk(const Person& person, const Trajectory& r
 std::vector<Face> Crowd::at(double time) const {
   std::vector<Face> faces;
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    const auto index = static_cast<std::size_t>(std::max(0.0, std::round((time - start_time_) / step)));
+    const auto index = static_cast<std::size_t>(std::max(0.0, std::round((time - start_time_) / walk_step)));
     addFigure(faces, people_[i], stances_[i][std::min(index, stances_[i].size() - 1)], i * part_count);
   }
   return faces;
