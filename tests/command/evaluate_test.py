@@ -150,6 +150,8 @@ class EvaluateTest(CommandTest):
         statuses = {row['run']: row['status'] for row in self.rows('out', 'runs.csv')}
         self.assertEqual(statuses, {'broken.laser.both.global.1': 'failed', 'start.laser.both.global.1': 'done'})
         self.assertIn('not a rawlog', self.path('out/report.html').read_text())
+        self.copy(SAMPLE / 'start.rawlog', 'broken.rawlog')
+        self.assertIn('2 of 2 runs done', self.succeed('evaluate', self.experiment, '-o', 'out', '--resume'))
 
     def test_single_jobs_give_the_same_tables(self):
         self.write('experiment.yaml', GOOD.replace('seeds: 8', 'seeds: 2'))

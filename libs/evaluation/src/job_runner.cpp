@@ -58,12 +58,11 @@ void JobRunner::writeJobList(const std::vector<Job>& jobs) {
 
 bool JobRunner::isDone(const Job& job) {
   const fs::path directory = runDirectory(directory_, job);
-  const auto known = readJobHash(directory);
-  if (!known) return false;
-  if (const std::scoped_lock lock(describer_mutex_); *known != describer_.hashOf(job))
-    throw std::runtime_error(directory.string() +
-                             ": is of another configuration, log or map of these names: use another directory");
-  return readRunEnd(directory).done;
+  if (!readRunEnd(directory).done) return false;
+  const std::scoped_lock lock(describer_mutex_);
+  if (readJobHash(directory) == describer_.hashOf(job)) return true;
+  throw std::runtime_error(directory.string() +
+                           ": is of another configuration, log or map of these names: use another directory");
 }
 
 bool JobRunner::hasResults() const { return fs::exists(directory_ / "runs") || fs::exists(directory_ / "unfinished"); }
