@@ -21,7 +21,8 @@ std::string titleOfCell(const ExperimentResults& results, const CellGroup& group
   return " title '" + nameOf(results.experiment, group.cells[cell].method) + '\'';
 }
 
-constexpr const char* plain_axes = "set grid lc rgb '#dddddd'\nset border 3 lc rgb '#666666'\nset tics nomirror\n";
+constexpr const char* plain_axes =
+    "set termoption noenhanced\nset grid lc rgb '#dddddd'\nset border 3 lc rgb '#666666'\nset tics nomirror\n";
 
 /// The first run of each method, while localized.
 std::string pathsCommands(const ExperimentResults& results, const CellGroup& group, const std::vector<PlotLayer>& map) {
