@@ -17,7 +17,8 @@ constexpr float reach = 1.5f;           // m over which things darken each other
 constexpr double lamp_power = 2.6;      // m^2: a ceiling lamp lights the floor below it well
 constexpr double window_power = 2.2;    // per m^2 of a window
 constexpr double nearest_square = 0.5;  // m^2: a lamp is not brighter than from this distance
-constexpr int patches = 3;              // of a lamp or window, along each side
+constexpr int patches = 2;              // of a lamp or window, along each side
+constexpr float faint = 0.02f;          // light that makes no difference
 constexpr int directions = 24;          // that openness is judged by
 
 /// Directions around a normal, denser near it as their light counts more (a spiral: Vogel 1979).
@@ -60,7 +61,7 @@ float LightTracer::fromLamp(const Lamp& lamp, const Vector3f& point, const Vecto
       if (incidence <= 0) continue;
       const float emission = lamp.kind == Lamp::Kind::window ? std::abs(axis.dot(direction)) : 1.0f;
       const float strength = power * emission * incidence / (distance * distance + static_cast<float>(nearest_square));
-      if (strength > 1e-3f && !tree_.firstHit(point, direction, distance - 2 * off_surface)) sum += strength;
+      if (strength > faint && !tree_.firstHit(point, direction, distance - 2 * off_surface)) sum += strength;
     }
   return sum / (patches * patches);
 }
