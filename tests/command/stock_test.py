@@ -34,13 +34,18 @@ class StockTest(CommandTest):
         return math.dist((x, y), true[:2]), abs(math.remainder(heading_deg - true_heading_deg, 360))
 
     def assert_localizes(self):
-        """Stock starts at random and has no way back: one run of ten loses the robot, three in a row one of 1000."""
+        """In one of two runs, as stock starts at random, by a seed of its own, and has no way back when it is lost.
+
+        Its filter, fed with images measured beforehand, was so in none of 278 runs of the real log and of 300 of the
+        simulated one, the whole program in none of 8 and 15: by that in less than one of 75 (Wilson, 95 %), twice in a
+        row in less than one of 5000.
+        """
         errors = []
-        while len(errors) < 3:
+        while len(errors) < 2:
             errors.append(self.errors_at_the_end())
             if errors[-1][0] < 0.25 and errors[-1][1] < 5:
                 return
-        self.fail(f'errors at the end of three runs, m and deg: {errors}')
+        self.fail(f'errors at the end of two runs, m and deg: {errors}')
 
     def use(self, log):
         """Puts a log with its images and its ground truth in the folder as query."""
@@ -56,7 +61,7 @@ class StockTest(CommandTest):
 
     @unittest.skipUnless(BOX.exists(), f'{BOX} is not there')
     def test_real_robot(self):
-        for name, first, last in (('drive', 0, 769), ('query', 770, 851)):
+        for name, first, last in (('drive', 0, 399), ('query', 770, 851)):  # the query is where 0 to 130 were
             self.succeed('import', 'tum', BOX, '-o', f'{name}.rawlog', '--first-frame', first, '--last-frame', last)
         self.succeed('map', 'drive.rawlog', '--trajectory', 'drive.groundtruth.tum', '-o', 'map.vmap',
                      '--mask-rows-from-top', 75)

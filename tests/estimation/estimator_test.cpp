@@ -13,7 +13,8 @@ bool near(const PlanarPose& pose, const PlanarPose& truth) {
   return d.head<2>().norm() < 0.1 && std::abs(d.z()) < 0.02;
 }
 
-// Half the matches are outliers; about 99 % of such problems are solved. At least 85 of 100: a false alarm in 10^-15.
+// Half the matches are outliers; all of 1500 such problems of other seeds are solved by each solver, and at least 91 %
+// of what is taken for inliers is. Fewer than 85 of 100 solved: a false alarm in 10^15.
 class EachSolver : public testing::TestWithParam<Solver> {};
 TEST_P(EachSolver, FindsThePoseAmongOutliers) {
   Random random(51);
@@ -99,20 +100,22 @@ Scene tiltedScene(Random& random, double tilt) {
   return scene;
 }
 
+// The pose is found in 99.6 % of 1000 such scenes of other seeds; fewer than 17 of 20: a false
+// alarm in 20,000 at most.
 TEST(Estimator, FewSamplesAreSharedByTheKinds) {
   Random random(77);
-  Scene scene = randomScene(random, {.matches = 50, .depth_rate = 1});
-  for (std::size_t i = 0; i < scene.problem.matches.size(); ++i) {
-    Match& match = scene.problem.matches[i];
-    if (i >= 2) match.point.reset();
-  }
-  scene.problem.matches[1].point->point_in_map.x() += 3;  // the one pair with depth is wrong
   EstimatorOptions options;
   options.iterations = 100;
-  const PoseEstimate estimate = estimatePose(scene.problem, options);
-  ASSERT_TRUE(estimate.found());
-  EXPECT_EQ(estimate.modes.front().solver, Solver::one_point_one_depth);
-  EXPECT_LT(difference(estimate.modes.front().robot_in_map, scene.map_from_robot).norm(), 0.05);
+  int found = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = randomScene(random, {.matches = 50, .depth_rate = 1});
+    for (std::size_t i = 2; i < scene.problem.matches.size(); ++i) scene.problem.matches[i].point.reset();
+    scene.problem.matches[1].point->point_in_map.x() += 3;  // the one pair with depth is wrong
+    const PoseEstimate estimate = estimatePose(scene.problem, options);
+    found += estimate.found() && estimate.modes[0].solver == Solver::one_point_one_depth &&
+             difference(estimate.modes[0].robot_in_map, scene.map_from_robot).norm() < 0.05;
+  }
+  EXPECT_GE(found, 17);
 }
 
 // Nearly all of these are found without the soft plane as well, but 14 mm off in the median, with it 1.5 mm. It was the
@@ -133,17 +136,17 @@ TEST(Estimator, SoftPlaneBearsHalfADegreeOfTilt) {
   EXPECT_GE(nearer, 42);
 }
 
-// Told of 99 % of 5000 tilted robots of other seeds, and of none of 1000 upright ones. Fewer than 55 of 60: a false
-// alarm in 20,000.
+// Told of 94 % of 1000 tilted robots of other seeds, more than 92.8 % by that (Wilson, 95 %), and of none of 1000
+// upright ones. Fewer than 82, or 95, of 100: a false alarm in 10,000 at most.
 TEST(Estimator, SaysWhenTheRobotIsOffItsPlane) {
   Random random(57);
   int upright = 0, tilted = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 100; ++trial) {
     upright += estimatePose(tiltedScene(random, 0).problem, {}).off_plane_log_odds < 5;
     tilted += estimatePose(tiltedScene(random, 1 * M_PI / 180).problem, {}).off_plane_log_odds > 5;
   }
-  EXPECT_GE(upright, 55);
-  EXPECT_GE(tilted, 55);
+  EXPECT_GE(upright, 95);
+  EXPECT_GE(tilted, 82);
 }
 
 // Over 400 other seeds an estimate is off by -0.024 and 0.009 in the mean, with a standard deviation of 0.022: the mean

@@ -29,23 +29,28 @@ namespace {
 
 class EveryPoseMethod : public testing::TestWithParam<PoseMethod> {};
 
+// The worst of 960 problems of other seeds, a nearly flat one, left vmcl 1.6e-4 m off: fewer than 0.4 % miss (Wilson,
+// 95 %), and fewer than 4 exact of 5 are a false alarm in 6000. No other method was off by more than 6e-6 m in 280.
 TEST_P(EveryPoseMethod, FindsTheExactPose) {
   Random random(1);
   MethodSettings settings;
   settings.sigma_px = 0.1;
   for (const int cameras : {1, 3}) {
     if (cameras > 1 && !GetParam().takes_rigs) continue;
+    int exact = 0;
     for (int k = 0; k < 5; ++k) {
       const SimulatedProblem simulated = exactProblem(cameras, random);
       const auto poses = GetParam().estimate(simulated.problem, settings);
       ASSERT_FALSE(poses.empty());
-      EXPECT_NEAR(poses[0].x, simulated.map_from_robot.x, 1e-3);
-      EXPECT_NEAR(poses[0].y, simulated.map_from_robot.y, 1e-3);
-      EXPECT_NEAR(wrapAngle(poses[0].phi - simulated.map_from_robot.phi), 0, 1e-4);
+      const PlanarPose error = inverse(simulated.map_from_robot) * poses[0];
+      exact += std::hypot(error.x, error.y) < 1e-3 && std::abs(error.phi) < 1e-4;
     }
+    EXPECT_GE(exact, 4) << cameras;
   }
 }
 
+// Each method finds 99.4 % or more of 486 problems of other seeds. Fewer than 17 of 20 by any of them: a false alarm in
+// 90,000.
 TEST_P(EveryPoseMethod, FindsThePoseAmongSomeOutliers) {
   Random random(2);
   int found = 0;
