@@ -150,5 +150,31 @@ TEST(PoseRefiner, RefusesBadPriors) {
   EXPECT_THROW(SoftPlane({.sigma_tilt = 0, .sigma_height = NAN}).check(), std::invalid_argument);
 }
 
+// Also where numbers do not fit single precision.
+TEST(PoseRefiner, ClimbsToWhereRefinementEnds) {
+  Random random(97);
+  for (const double noise_px : {1.0, 1e-3}) {
+    const Scene scene = randomScene(random, {.matches = 100, .outlier_rate = 0.3, .noise_px = noise_px});
+    const PoseLikelihood likelihood(scene.problem, {.sigma_px = noise_px});
+    const PoseRefiner refiner(likelihood, {});
+    const PlanarPose& truth = scene.map_from_robot;
+    const std::vector<PlanarTransform> starts{
+        PlanarTransform(PlanarPose{truth.x + noise_px * 0.02, truth.y, truth.phi}),
+        PlanarTransform(PlanarPose{truth.x, truth.y - noise_px * 0.02, truth.phi + noise_px * 0.01})};
+    const std::vector<ClimbedPose> together = refiner.climb(starts);
+    ASSERT_EQ(together.size(), 2u);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      const RefinedPose refined = refiner.refine(starts[i]);
+      const Eigen::Vector3d d = difference(together[i].map_from_robot.pose(), refined.map_from_robot);
+      EXPECT_LT(d.dot(refined.covariance.ldlt().solve(d)), 0.1);
+      EXPECT_GE(together[i].slope.log_likelihood, likelihood(starts[i]) - 1e-3);
+      const ClimbedPose alone = refiner.climb(std::span(starts).subspan(i, 1)).front();
+      EXPECT_EQ(alone.map_from_robot.x, together[i].map_from_robot.x);
+    }
+    EXPECT_TRUE(refiner.climb({}).empty());
+    EXPECT_EQ(refiner.climb(starts, 0).front().map_from_robot.x, starts.front().x);
+  }
+}
+
 }  // namespace
 }  // namespace vmcl

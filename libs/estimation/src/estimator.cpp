@@ -126,11 +126,12 @@ class Search {
   std::vector<int> inliers_;  ///< of the best pose so far
 };
 
+constexpr double within_sight = 10;  // m; most of what a reference sees is nearer
+
 /// Log odds of the pose against chance: its likelihood ratio, integrated over the peak with a prior that spreads over
 /// all headings and all places within sight of the references.
 double logEvidence(const RefinedPose& refined) {
-  constexpr double reach = 10;  // m
-  const double volume = std::numbers::pi * reach * reach * 2 * std::numbers::pi;
+  const double volume = std::numbers::pi * within_sight * within_sight * 2 * std::numbers::pi;
   return refined.log_evidence - std::log(volume);
 }
 
@@ -147,12 +148,23 @@ struct RefinedHypothesis {
   Solver solver;
 };
 
-/// Each optimized, those without a pose dropped, the heaviest first, and of those that ended at one peak the first.
-std::vector<RefinedHypothesis> refined(const PoseRefiner& refiner, const std::vector<Hypothesis>& hypotheses) {
+/// Whether the matches say where the robot is, and that is within sight of what a reference may see.
+bool isPlace(const RefinedPose& pose, const PoseProblem& problem) {
+  constexpr double farthest = 10 * within_sight;
+  const Eigen::Vector2d place(pose.map_from_robot.x, pose.map_from_robot.y);
+  return pose.constrained && pose.covariance.topLeftCorner<2, 2>().trace() < within_sight * within_sight &&
+         std::ranges::any_of(problem.reference_cameras, [&](const ReferenceCamera& reference) {
+           return (reference.map_from_camera.translation().head<2>() - place).norm() < farthest;
+         });
+}
+
+/// Each optimized, those without a place dropped, the heaviest first, and of those that ended at one peak the first.
+std::vector<RefinedHypothesis> refined(const PoseProblem& problem, const PoseRefiner& refiner,
+                                       const std::vector<Hypothesis>& hypotheses) {
   std::vector<RefinedHypothesis> all;
   for (const auto& [pose, solver] : hypotheses) {
     all.push_back({refiner.refine(pose), solver});
-    if (!all.back().pose.constrained) all.pop_back();
+    if (!isPlace(all.back().pose, problem)) all.pop_back();
   }
   std::stable_sort(all.begin(), all.end(), [](const RefinedHypothesis& a, const RefinedHypothesis& b) {
     return a.pose.log_evidence > b.pose.log_evidence;
@@ -165,6 +177,11 @@ std::vector<RefinedHypothesis> refined(const PoseRefiner& refiner, const std::ve
     if (!seen) kept.push_back(one);
   }
   return kept;
+}
+
+bool fixesThePose(const PlanarSlope& slope) {
+  constexpr double least = 1e-9;  // of the determinant of the information scaled to a unit diagonal
+  return slope.information.determinant() > least * slope.information.diagonal().prod();
 }
 
 /// Where the hypotheses come to within some steps of climbing on the plane, the likeliest first: those that met once,
@@ -180,13 +197,16 @@ std::vector<Hypothesis> climbedFrom(const PoseRefiner& climber, const std::vecto
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return climbed[a].slope.log_likelihood > climbed[b].slope.log_likelihood;
   });
+  const auto best = std::ranges::find_if(order, [&](std::size_t i) { return fixesThePose(climbed[i].slope); });
+  const double least =
+      best == order.end() ? -std::numeric_limits<double>::infinity() : climbed[*best].slope.log_likelihood - hopeless;
   std::vector<std::size_t> kept;
   for (const std::size_t i : order) {
     const ClimbedPose& one = climbed[i];
-    if (one.slope.log_likelihood < climbed[order.front()].slope.log_likelihood - hopeless) break;
+    if (one.slope.log_likelihood < least) break;
     const bool met = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
       const Eigen::Vector3d d = difference(one.map_from_robot.pose(), climbed[k].map_from_robot.pose());
-      return d.dot(climbed[k].slope.information * d) < met_distance2;
+      return d.squaredNorm() + d.dot(climbed[k].slope.information * d) < met_distance2;
     });
     if (!met) kept.push_back(i);
   }
@@ -195,10 +215,17 @@ std::vector<Hypothesis> climbedFrom(const PoseRefiner& climber, const std::vecto
   return reached;
 }
 
+/// Log likelihood below the best that refinement on the plane does not make up for. Off it, the true pose may look
+/// poor.
+double hopelessBelow(const SoftPlane& plane) {
+  const bool is_soft = plane.sigma_tilt > 0 || plane.sigma_height > 0;
+  return is_soft ? std::numeric_limits<double>::infinity() : 25;
+}
+
 /// The peaks above the hypotheses: most of these meet soon.
-std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vector<Hypothesis>& starts) {
+std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vector<Hypothesis>& starts,
+                                     double hopeless) {
   constexpr int first_steps = 3, more_steps = 12;
-  constexpr double hopeless = 25;
   const std::vector<Hypothesis> met =
       climbedFrom(climber, starts, first_steps, std::numeric_limits<double>::infinity());
   return climbedFrom(climber, met, more_steps, hopeless);
@@ -206,7 +233,8 @@ std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vect
 
 double offPlaneLogOdds(const PoseLikelihood& likelihood, const PoseRefiner& refiner, const RefinedPose& refined) {
   const PoseRefiner off(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2});
-  return off.logEvidenceAbout(refined) - refiner.logEvidenceAbout(refined);
+  const double log_odds = off.logEvidenceAbout(refined) - refiner.logEvidenceAbout(refined);
+  return std::isfinite(log_odds) ? log_odds : 0;
 }
 
 PoseEstimate noPose(NoPose failure) {
@@ -259,12 +287,12 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (starts.empty()) return noPose(NoPose::no_sample);
 
   const PoseRefiner climber(first_guess, {});
-  const std::vector<Hypothesis> summits = summitsAbove(climber, starts);
+  const std::vector<Hypothesis> summits = summitsAbove(climber, starts, hopelessBelow(options.plane));
   // Judged and optimized with the share of inliers that the best pose shows.
-  const double inlier_rate = climber.inlierRate(climber.refine(summits.front().pose));
+  const double inlier_rate = climber.inlierRate(PoseRefiner(first_guess, options.plane).refine(summits.front().pose));
   const PoseLikelihood likelihood = first_guess.withInlierPrior(inlier_rate);
   const PoseRefiner refiner(likelihood, options.plane);
-  std::vector<RefinedHypothesis> peaks = refined(refiner, summits);
+  std::vector<RefinedHypothesis> peaks = refined(problem, refiner, summits);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
   std::erase_if(peaks, [&](const RefinedHypothesis& peak) { return !isBetterThanChance(peak.pose, first_guess); });
   if (peaks.empty()) return noPose(NoPose::no_better_than_chance);
@@ -276,7 +304,9 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   estimate.inlier_rate = inlier_rate;
   const PoseMode& best = estimate.modes.front();
   estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
-  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner, peaks.front().pose);
+  const auto heaviest = std::ranges::find(peaks, best.log_likelihood,
+                                          [](const RefinedHypothesis& peak) { return peak.pose.log_likelihood; });
+  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner, heaviest->pose);
   return estimate;
 }
 

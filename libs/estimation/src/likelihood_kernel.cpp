@@ -5,7 +5,8 @@
 
 #include "instruction_sets.h"
 
-// Compiled once for each instruction set, the portable one included; the best for the machine is chosen when it runs.
+// Compiled once for each instruction set, that of every machine of its kind included; the best for the machine is
+// chosen when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "likelihood_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep

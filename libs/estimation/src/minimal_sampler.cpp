@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "three_rays.h"
 #include "vmcl/estimation/depth_points.h"
@@ -32,11 +33,17 @@ uint64_t largestOf(uint64_t number, CombinationsOf&& combinations_of) {
 }  // namespace
 
 MinimalSampler::MinimalSampler(const PoseProblem& problem, uint64_t seed) : random_(seed) {
-  for (const Match& match : problem.matches) {
+  std::vector<std::size_t> order(problem.matches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[random_.below(static_cast<uint32_t>(i))]);
+  for (const std::size_t index : order) {
+    const Match& match = problem.matches[index];
     const RayToRay rays = raysOfMatch(problem, match);
     if (match.point) {
       with_depth_.push_back({rays.ray_in_robot, match.point->point_in_map});
-      match_of_depth_.push_back(static_cast<int>(rays_.size()));
+      ray_of_depth_.push_back(rays_.size());
+      match_of_depth_.push_back(static_cast<int>(index));
     }
     rays_.push_back(rays);
     const auto apart = [](const Ray& a, const Ray& b) { return (a.origin - b.origin).norm() > 0.01; };
@@ -88,7 +95,7 @@ void MinimalSampler::draw(Solver kind, int count, std::vector<PlanarTransform>& 
 void MinimalSampler::addOnePointOneDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const {
   const std::size_t depth = sample / (rays_.size() - 1);
   std::size_t other = sample % (rays_.size() - 1);
-  if (other >= static_cast<std::size_t>(match_of_depth_[depth])) ++other;
+  if (other >= ray_of_depth_[depth]) ++other;
   const PlanarRoots roots = solveOnePointOneDepth(with_depth_[depth], rays_[other]);
   poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
 }

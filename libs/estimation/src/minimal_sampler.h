@@ -34,10 +34,11 @@ class MinimalSampler {
   void addTwoDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const;
   void addThreeRays(uint64_t sample, std::vector<PlanarTransform>& poses) const;
 
-  std::vector<RayToRay> rays_;  ///< of every match
+  std::vector<RayToRay> rays_;  ///< of every match, shuffled
   bool has_baseline_ = false;   ///< rays of either side come from two places or more, 1 cm apart
   std::vector<RayToPoint> with_depth_;
-  std::vector<int> match_of_depth_;  ///< index of with_depth_'s entries in rays_
+  std::vector<std::size_t> ray_of_depth_;  ///< index of with_depth_'s entries in rays_
+  std::vector<int> match_of_depth_;        ///< and in the problem
   Random random_;
   std::map<Solver, EvenOrder> orders_;
 };

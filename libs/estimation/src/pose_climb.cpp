@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "prepared_matches.h"
 #include "vmcl/estimation/pose_refiner.h"
@@ -36,7 +38,7 @@ class Climb {
       pose_ = pose;
       slope_ = slope;
       damping_ *= 0.1;
-      is_over_ = gain < worthwhile;
+      is_over_ = gain < worthwhile && damping_ < 1e-2;
     } else {
       damping_ *= 10;
       is_over_ = damping_ > hopeless_damping;
@@ -55,6 +57,9 @@ class Climb {
 }  // namespace
 
 void PoseRefiner::linearize(std::span<const PlanarTransform> poses, std::span<PlanarSlope> slopes) const {
+  if (poses.size() != slopes.size())
+    throw std::invalid_argument("PoseRefiner::linearize: " + std::to_string(poses.size()) + " poses but " +
+                                std::to_string(slopes.size()) + " results");
   const auto& terms = likelihood_.prepared_->terms;
   if (terms) linearizeTerms(*terms, poses, slopes);
   for (std::size_t i = 0; i < poses.size(); ++i) {

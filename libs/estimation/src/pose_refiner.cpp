@@ -136,15 +136,16 @@ RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations
   best.map_from_robot = start.pose();
   double objective = evaluate(best), damping = 1e-4;
   Linearization linear = withPrior(best);
+  bool near = false;  // Then the gradient leads, not L: it vanishes in one place, wherever the climb came from.
   for (int i = 0; i < max_iterations && damping < 1e6; ++i) {
     Matrix6 damped = linear.information;
     damped.diagonal() += damping * linear.information.diagonal() + Vector6::Constant(1e-12);
     const Vector6 step = damped.ldlt().solve(linear.gradient);
     if (!step.allFinite()) break;
     RefinedPose next = moved(best, step);
-    // Near the top the gradient leads, not L: it vanishes in one place, wherever the climb came from.
     const double expected_gain = 0.5 * step.dot(linear.gradient);
-    if (expected_gain < near_the_top) {
+    near |= expected_gain < near_the_top && damping < 0.1;
+    if (near) {
       best = next;
       linear = withPrior(best);
       if (expected_gain < at_the_top) break;

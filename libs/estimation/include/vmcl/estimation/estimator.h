@@ -32,7 +32,7 @@ enum class NoPose {
   none,                  ///< there is one
   too_few_matches,       ///< fewer than a sample needs
   no_sample,             ///< no sample gives a pose: all matches degenerate, or without depth and of one reference
-  unconstrained,         ///< matches agree with a pose but do not fix it
+  unconstrained,         ///< matches agree with a pose but do not fix it to 10 m, or only 100 m from all references
   no_better_than_chance  ///< no pose explains more matches than chance would
 };
 
