@@ -38,8 +38,9 @@ int runImport(const ImportArguments& arguments, const Importer& import) {
 ImportReport runTum(const ImportArguments& arguments, const std::function<void(double share)>& progress) {
   const TumImportReport tum = importTum(arguments.input, arguments.output, arguments.tum, progress);
   if (tum.mask_rows_from_top > 0)
-    std::cout << "calibration.yaml masks the top " << tum.mask_rows_from_top
-              << " rows; a rawlog cannot say so: set mask_rows_from_top where the log is used\n";
+    std::cout
+        << "calibration.yaml masks the top " << tum.mask_rows_from_top
+        << " rows; a rawlog cannot say so: give vmcl map --mask-rows-from-top, and mask_rows_from_top in the ini\n";
   ImportReport report;
   report.images = tum.images;
   report.odometry_readings = tum.odometry_readings;

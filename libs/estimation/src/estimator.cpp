@@ -8,8 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "minimal_sampler.h"
-#include "vmcl/estimation/sample_consensus.h"
+#include "sample_search.h"
 
 namespace vmcl {
 
@@ -25,106 +24,6 @@ void EstimatorOptions::check() const {
 }
 
 namespace {
-
-struct Hypothesis {
-  PlanarTransform pose;
-  Solver solver;
-};
-
-/// Hypotheses that optimization takes to the same place, so that one of them is enough (m, rad).
-bool alike(const Hypothesis& a, const Hypothesis& b) {
-  constexpr double near = 0.02;
-  return std::hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) < near &&
-         std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
-}
-
-/// Kinds of samples that are wanted and possible.
-std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
-  std::vector<Solver> kinds;
-  for (const Solver kind : {Solver::two_depth, Solver::one_point_one_depth})
-    if ((wanted == kind || wanted == Solver::automatic) && sampler.canDraw(kind)) kinds.push_back(kind);
-  const bool rays_alone = wanted == Solver::automatic && kinds.empty();
-  if ((wanted == Solver::three_rays || rays_alone) && sampler.canDraw(Solver::three_rays))
-    kinds.push_back(Solver::three_rays);
-  return kinds;
-}
-
-/// RANSAC whose kinds of samples each go on until one without outliers is all but certain, by the best pose so far.
-class Search {
- public:
-  Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
-      : sampler_(problem, options.seed), likelihood_(likelihood), refiner_(likelihood, {}) {
-    for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
-    if (kinds_.size() > 1) at_first_ = std::clamp(options.iterations / static_cast<int>(kinds_.size()), 1, at_first_);
-    int left = options.iterations;
-    for (bool drew = !kinds_.empty(); drew && left > 0;) {
-      drew = false;
-      for (Kind& kind : kinds_) {
-        const int wanted = std::min(samplesWanted(kind), left);
-        if (wanted <= 0) continue;
-        draw(kind, wanted);
-        left -= wanted;
-        drew = true;
-      }
-    }
-  }
-
-  bool canDraw() const { return !kinds_.empty(); }
-
-  /// The best hypotheses, alike ones once, the best first.
-  std::vector<ScoredHypothesis<Hypothesis>> best(int count) const {
-    const auto score = [&](std::span<const Hypothesis>, std::span<double> scores) {
-      std::copy(scores_.begin(), scores_.end(), scores.begin());
-    };
-    return bestHypotheses(hypotheses_, count, score, alike);
-  }
-
- private:
-  struct Kind {
-    Solver solver;
-    int drawn = 0;
-  };
-
-  /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than there are.
-  int samplesWanted(const Kind& kind) const {
-    constexpr double miss = 1e-3;
-    const double left = sampler_.sampleCount(kind.solver) - kind.drawn;
-    if (kind.drawn == 0) return static_cast<int>(std::min(left, 1.0 * at_first_));
-    const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
-    const double needed = std::ceil(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)));
-    return static_cast<int>(std::min({needed - kind.drawn, 1.0 * kind.drawn, left}));
-  }
-
-  void draw(Kind& kind, int count) {
-    std::vector<PlanarTransform> poses;
-    sampler_.draw(kind.solver, count, poses);
-    std::erase_if(poses, [](const PlanarTransform& pose) {
-      return !std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.c) || !std::isfinite(pose.s);
-    });
-    std::vector<double> scores(poses.size());
-    likelihood_.evaluate(poses, scores);
-    const auto top = std::max_element(scores.begin(), scores.end());
-    if (top != scores.end() && *top > best_score_) {
-      best_score_ = *top;
-      RefinedPose pose;
-      pose.map_from_robot = poses[static_cast<std::size_t>(top - scores.begin())].pose();
-      inliers_ = refiner_.inliers(pose);
-    }
-    for (const PlanarTransform& pose : poses) hypotheses_.push_back({pose, kind.solver});
-    scores_.insert(scores_.end(), scores.begin(), scores.end());
-    kind.drawn += count;
-  }
-
-  MinimalSampler sampler_;
-  const PoseLikelihood& likelihood_;
-  PoseRefiner refiner_;
-  std::vector<Kind> kinds_;
-  int at_first_ = 128;  ///< samples of each kind before any rule
-  std::vector<Hypothesis> hypotheses_;
-  std::vector<double> scores_;
-  double best_score_ = -std::numeric_limits<double>::infinity();
-  std::vector<int> inliers_;  ///< of the best pose so far
-};
 
 constexpr double within_sight = 10;  // m; most of what a reference sees is nearer
 
@@ -280,14 +179,12 @@ std::string_view nameOf(NoPose failure) {
 PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& options) {
   options.check();
   const PoseLikelihood first_guess(problem, options.likelihood);
-  const Search search(problem, first_guess, options);
-  if (!search.canDraw()) return noPose(problem.matches.size() < 2 ? NoPose::too_few_matches : NoPose::no_sample);
-  std::vector<Hypothesis> starts;
-  for (const auto& [hypothesis, score] : search.best(options.refined)) starts.push_back(hypothesis);
-  if (starts.empty()) return noPose(NoPose::no_sample);
+  const std::optional<std::vector<Hypothesis>> starts = searchSamples(problem, first_guess, options);
+  if (!starts) return noPose(problem.matches.size() < 2 ? NoPose::too_few_matches : NoPose::no_sample);
+  if (starts->empty()) return noPose(NoPose::no_sample);
 
   const PoseRefiner climber(first_guess, {});
-  const std::vector<Hypothesis> summits = summitsAbove(climber, starts, hopelessBelow(options.plane));
+  const std::vector<Hypothesis> summits = summitsAbove(climber, *starts, hopelessBelow(options.plane));
   // Judged and optimized with the share of inliers that the best pose shows.
   const double inlier_rate = climber.inlierRate(PoseRefiner(first_guess, options.plane).refine(summits.front().pose));
   const PoseLikelihood likelihood = first_guess.withInlierPrior(inlier_rate);

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "minimal_sampler.h"
+#include "vmcl/estimation/sample_consensus.h"
+
+namespace vmcl {
+namespace {
+
+/// Hypotheses that optimization takes to the same place, so that one of them is enough (m, rad).
+bool alike(const Hypothesis& a, const Hypothesis& b) {
+  constexpr double near = 0.02;
+  return std::hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) < near &&
+         std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
+}
+
+/// Kinds of samples that are wanted and possible.
+std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
+  std::vector<Solver> kinds;
+  for (const Solver kind : {Solver::two_depth, Solver::one_point_one_depth})
+    if ((wanted == kind || wanted == Solver::automatic) && sampler.canDraw(kind)) kinds.push_back(kind);
+  const bool rays_alone = wanted == Solver::automatic && kinds.empty();
+  if ((wanted == Solver::three_rays || rays_alone) && sampler.canDraw(Solver::three_rays))
+    kinds.push_back(Solver::three_rays);
+  return kinds;
+}
+
+/// RANSAC whose kinds of samples each go on until one without outliers is all but certain, by the best pose so far.
+class Search {
+ public:
+  Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
+      : sampler_(problem, options.seed), likelihood_(likelihood), refiner_(likelihood, {}) {
+    for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
+    if (kinds_.size() > 1) at_first_ = std::clamp(options.iterations / static_cast<int>(kinds_.size()), 1, at_first_);
+    int left = options.iterations;
+    for (bool drew = !kinds_.empty(); drew && left > 0;) {
+      drew = false;
+      for (Kind& kind : kinds_) {
+        const int wanted = std::min(samplesWanted(kind), left);
+        if (wanted <= 0) continue;
+        draw(kind, wanted);
+        left -= wanted;
+        drew = true;
+      }
+    }
+  }
+
+  bool canDraw() const { return !kinds_.empty(); }
+
+  /// The best hypotheses, alike ones once, the best first.
+  std::vector<ScoredHypothesis<Hypothesis>> best(int count) const {
+    const auto score = [&](std::span<const Hypothesis>, std::span<double> scores) {
+      std::copy(scores_.begin(), scores_.end(), scores.begin());
+    };
+    return bestHypotheses(hypotheses_, count, score, alike);
+  }
+
+ private:
+  struct Kind {
+    Solver solver;
+    int drawn = 0;
+  };
+
+  /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than there are.
+  int samplesWanted(const Kind& kind) const {
+    constexpr double miss = 1e-3;
+    const double left = sampler_.sampleCount(kind.solver) - kind.drawn;
+    if (kind.drawn == 0) return static_cast<int>(std::min(left, 1.0 * at_first_));
+    const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
+    const double needed = std::ceil(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)));
+    return static_cast<int>(std::min({needed - kind.drawn, 1.0 * kind.drawn, left}));
+  }
+
+  void draw(Kind& kind, int count) {
+    std::vector<PlanarTransform> poses;
+    sampler_.draw(kind.solver, count, poses);
+    std::erase_if(poses, [](const PlanarTransform& pose) {
+      return !std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.c) || !std::isfinite(pose.s);
+    });
+    std::vector<double> scores(poses.size());
+    likelihood_.evaluate(poses, scores);
+    const auto top = std::max_element(scores.begin(), scores.end());
+    if (top != scores.end() && *top > best_score_) {
+      best_score_ = *top;
+      RefinedPose pose;
+      pose.map_from_robot = poses[static_cast<std::size_t>(top - scores.begin())].pose();
+      inliers_ = refiner_.inliers(pose);
+    }
+    for (const PlanarTransform& pose : poses) hypotheses_.push_back({pose, kind.solver});
+    scores_.insert(scores_.end(), scores.begin(), scores.end());
+    kind.drawn += count;
+  }
+
+  MinimalSampler sampler_;
+  const PoseLikelihood& likelihood_;
+  PoseRefiner refiner_;
+  std::vector<Kind> kinds_;
+  int at_first_ = 128;  ///< samples of each kind before any rule
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<double> scores_;
+  double best_score_ = -std::numeric_limits<double>::infinity();
+  std::vector<int> inliers_;  ///< of the best pose so far
+};
+
+}  // namespace
+
+std::optional<std::vector<Hypothesis>> searchSamples(const PoseProblem& problem, const PoseLikelihood& likelihood,
+                                                     const EstimatorOptions& options) {
+  const Search search(problem, likelihood, options);
+  if (!search.canDraw()) return std::nullopt;
+  std::vector<Hypothesis> best;
+  for (const auto& [hypothesis, score] : search.best(options.refined)) best.push_back(hypothesis);
+  return best;
+}
+
+}  // namespace vmcl
