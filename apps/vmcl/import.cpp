@@ -49,6 +49,14 @@ ImportReport runTum(const ImportArguments& arguments, const std::function<void(d
   return report;
 }
 
+/// For a format without options of its own.
+template <class Import>
+Importer withoutOptions(Import* import) {
+  return [import](const ImportArguments& arguments, const std::function<void(double share)>& progress) {
+    return import(arguments.input, arguments.output, progress);
+  };
+}
+
 CLI::App* addFormat(CLI::App& verb, const std::string& name, const std::string& description, int& exit_code,
                     const std::shared_ptr<ImportArguments>& arguments, const CLI::Validator& input,
                     const std::string& input_name, const Importer& importer) {
@@ -80,10 +88,7 @@ void addImportVerb(CLI::App& app, int& exit_code) {
   addFormat(*verb, "openloris",
             "Make a rawlog of a sequence of OpenLORIS-Scene: of its extracted directory or its ROS 1 bag. Takes the\n"
             "D435i's colour images with aligned depth, odometry, the laser's scans (of a bag) and the ground truth.",
-            exit_code, arguments, CLI::ExistingPath, "DIR|BAG",
-            [](const ImportArguments& given, const std::function<void(double share)>& progress) {
-              return importOpenLoris(given.input, given.output, progress);
-            })
+            exit_code, arguments, CLI::ExistingPath, "DIR|BAG", withoutOptions(importOpenLoris))
       ->footer(
           "Examples:\n  vmcl import openloris home1-1 -o home1-1.rawlog\n"
           "  vmcl import openloris corridor1-1.bag -o corridor1-1.rawlog");
@@ -91,10 +96,7 @@ void addImportVerb(CLI::App& app, int& exit_code) {
   addFormat(*verb, "images",
             "Make a rawlog of a directory of images whose names are their times in seconds, with calibration.yaml;\n"
             "poses.txt (TUM format) becomes the ground truth, odometry.txt the odometry, where there are.",
-            exit_code, arguments, CLI::ExistingDirectory, "DIR",
-            [](const ImportArguments& given, const std::function<void(double share)>& progress) {
-              return importImages(given.input, given.output, progress);
-            })
+            exit_code, arguments, CLI::ExistingDirectory, "DIR", withoutOptions(importImages))
       ->footer("Example: vmcl import images DIR -o drive.rawlog");
 }
 

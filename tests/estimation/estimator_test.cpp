@@ -141,12 +141,12 @@ TEST(Estimator, SoftPlaneBearsHalfADegreeOfTilt) {
 TEST(Estimator, SaysWhenTheRobotIsOffItsPlane) {
   Random random(57);
   int upright = 0, tilted = 0;
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < 60; ++trial) {
     upright += estimatePose(tiltedScene(random, 0).problem, {}).off_plane_log_odds < 5;
     tilted += estimatePose(tiltedScene(random, 1 * M_PI / 180).problem, {}).off_plane_log_odds > 5;
   }
-  EXPECT_GE(upright, 95);
-  EXPECT_GE(tilted, 82);
+  EXPECT_GE(upright, 55);
+  EXPECT_GE(tilted, 55);
 }
 
 // Over 400 other seeds an estimate is off by -0.024 and 0.009 in the mean, with a standard deviation of 0.022: the mean

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 
+#include "best_distinct.h"
 #include "sample_search.h"
 
 namespace vmcl {
@@ -61,20 +61,18 @@ bool isPlace(const RefinedPose& pose, const PoseProblem& problem) {
 std::vector<RefinedHypothesis> refined(const PoseProblem& problem, const PoseRefiner& refiner,
                                        const std::vector<Hypothesis>& hypotheses) {
   std::vector<RefinedHypothesis> all;
+  std::vector<double> evidence;
   for (const auto& [pose, solver] : hypotheses) {
-    all.push_back({refiner.refine(pose), solver});
-    if (!isPlace(all.back().pose, problem)) all.pop_back();
+    const RefinedPose peak = refiner.refine(pose);
+    if (!isPlace(peak, problem)) continue;
+    all.push_back({peak, solver});
+    evidence.push_back(peak.log_evidence);
   }
-  std::stable_sort(all.begin(), all.end(), [](const RefinedHypothesis& a, const RefinedHypothesis& b) {
-    return a.pose.log_evidence > b.pose.log_evidence;
-  });
+  const auto is_same = [&](std::size_t a, std::size_t b) {
+    return difference(all[a].pose.map_from_robot, all[b].pose.map_from_robot).cwiseAbs().maxCoeff() < 1e-4;
+  };
   std::vector<RefinedHypothesis> kept;
-  for (const RefinedHypothesis& one : all) {
-    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const RefinedHypothesis& better) {
-      return difference(one.pose.map_from_robot, better.pose.map_from_robot).cwiseAbs().maxCoeff() < 1e-4;
-    });
-    if (!seen) kept.push_back(one);
-  }
+  for (const std::size_t i : bestDistinct(evidence, all.size(), is_same)) kept.push_back(all[i]);
   return kept;
 }
 
@@ -91,26 +89,19 @@ std::vector<Hypothesis> climbedFrom(const PoseRefiner& climber, const std::vecto
   std::vector<PlanarTransform> poses;
   for (const Hypothesis& start : starts) poses.push_back(start.pose);
   const std::vector<ClimbedPose> climbed = climber.climb(poses, steps);
-  std::vector<std::size_t> order(climbed.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return climbed[a].slope.log_likelihood > climbed[b].slope.log_likelihood;
-  });
-  const auto best = std::ranges::find_if(order, [&](std::size_t i) { return fixesThePose(climbed[i].slope); });
-  const double least =
-      best == order.end() ? -std::numeric_limits<double>::infinity() : climbed[*best].slope.log_likelihood - hopeless;
-  std::vector<std::size_t> kept;
-  for (const std::size_t i : order) {
-    const ClimbedPose& one = climbed[i];
-    if (one.slope.log_likelihood < least) break;
-    const bool met = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
-      const Eigen::Vector3d d = difference(one.map_from_robot.pose(), climbed[k].map_from_robot.pose());
-      return d.squaredNorm() + d.dot(climbed[k].slope.information * d) < met_distance2;
-    });
-    if (!met) kept.push_back(i);
+  std::vector<double> heights;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const ClimbedPose& one : climbed) {
+    heights.push_back(one.slope.log_likelihood);
+    if (fixesThePose(one.slope)) best = std::max(best, heights.back());
   }
+  const auto met = [&](std::size_t one, std::size_t higher) {
+    const Eigen::Vector3d d = difference(climbed[one].map_from_robot.pose(), climbed[higher].map_from_robot.pose());
+    return d.squaredNorm() + d.dot(climbed[higher].slope.information * d) < met_distance2;
+  };
   std::vector<Hypothesis> reached;
-  for (const std::size_t i : kept) reached.push_back({climbed[i].map_from_robot, starts[i].solver});
+  for (const std::size_t i : bestDistinct(heights, climbed.size(), met))
+    if (heights[i] >= best - hopeless) reached.push_back({climbed[i].map_from_robot, starts[i].solver});
   return reached;
 }
 
@@ -130,10 +121,10 @@ std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vect
   return climbedFrom(climber, met, more_steps, hopeless);
 }
 
-double offPlaneLogOdds(const PoseLikelihood& likelihood, const PoseRefiner& refiner, const RefinedPose& refined) {
-  const PoseRefiner off(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2});
-  const double log_odds = off.logEvidenceAbout(refined) - refiner.logEvidenceAbout(refined);
-  return std::isfinite(log_odds) ? log_odds : 0;
+double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
+  const RefinedPose off =
+      PoseRefiner(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2}).refine(PlanarTransform(refined.map_from_robot));
+  return off.constrained ? off.log_evidence - refined.log_evidence : 0;
 }
 
 PoseEstimate noPose(NoPose failure) {
@@ -203,7 +194,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
   const auto heaviest = std::ranges::find(peaks, best.log_likelihood,
                                           [](const RefinedHypothesis& peak) { return peak.pose.log_likelihood; });
-  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, refiner, heaviest->pose);
+  estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, heaviest->pose);
   return estimate;
 }
 

@@ -17,18 +17,22 @@ void LikelihoodOptions::check() const {
 }
 
 PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodOptions& likelihood_options)
-    : options(likelihood_options),
-      inverse_depth_prior(inverseDepthPrior(problem)),
-      outlier_density(problem),
-      matches(problem) {
-  setInlierPrior(options.inlier_prior);
+    : options(likelihood_options), inverse_depth_prior(inverseDepthPrior(problem)), matches(problem) {
+  if (options.level_outliers) outlier_density.emplace(problem);
+  weigh();
 }
 
-void PoseLikelihood::Prepared::setInlierPrior(double inlier_prior) {
+PoseLikelihood::Prepared::Prepared(const Prepared& other, double inlier_prior)
+    : options(other.options),
+      inverse_depth_prior(other.inverse_depth_prior),
+      outlier_density(other.outlier_density),
+      matches(other.matches) {
   options.inlier_prior = inlier_prior;
-  matches.setOutlierDensity(options.level_outliers
-                                ? outlier_density.at(inlier_prior)
-                                : std::vector<double>(static_cast<std::size_t>(matches.match_count), 1));
+  weigh();
+}
+
+void PoseLikelihood::Prepared::weigh() {
+  if (outlier_density) matches.setOutlierDensity(outlier_density->at(options.inlier_prior));
   terms = likelihoodTerms(matches, options, inverse_depth_prior);
 }
 
@@ -43,8 +47,7 @@ PoseLikelihood PoseLikelihood::withInlierPrior(double inlier_prior) const {
   options.inlier_prior = inlier_prior;
   options.check();
   PoseLikelihood other;
-  other.prepared_ = std::make_unique<Prepared>(*prepared_);
-  other.prepared_->setInlierPrior(inlier_prior);
+  other.prepared_ = std::make_unique<Prepared>(*prepared_, inlier_prior);
   return other;
 }
 

@@ -21,6 +21,7 @@ MatchGroups::MatchGroups(const PoseProblem& problem)
       group.pixel.push_back(match.query_pixel);
       group.point_in_map.push_back(match.point->point_in_map);
       group.covariance.push_back(match.point->covariance);
+      group.outlier_density.push_back(1);
     } else {
       RayGroup& group = rays_of[{match.query_camera, match.reference_camera}];
       group.query = match.query_camera;
@@ -28,6 +29,7 @@ MatchGroups::MatchGroups(const PoseProblem& problem)
       group.match.push_back(i);
       group.query_pixel.push_back(match.query_pixel);
       group.reference_pixel.push_back(match.reference_pixel);
+      group.outlier_density.push_back(1);
     }
   }
   for (auto& [key, group] : points_of) points.push_back(std::move(group));

@@ -28,7 +28,7 @@ struct RayGroup {
   std::vector<double> outlier_density;  ///< at the query pixel, over one uniform in the image
 };
 
-/// The matches of a problem, those evaluated alike together.
+/// The matches of a problem, those evaluated alike together; outliers are uniform unless told otherwise.
 struct MatchGroups {
   explicit MatchGroups(const PoseProblem& problem);
 

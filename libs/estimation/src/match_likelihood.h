@@ -166,7 +166,7 @@ class RayView {
     const double anywhere = (1 - described_share) * anywhereDensity(rho_variance, by_rho.squaredNorm());
     result.likelihood_ratio *= nearFade(h.z() - rho * min_depth) * (described + anywhere);
     if (!with_derivatives) return;
-    weigh(S, by_rho, rho, rho_variance, described / (described + anywhere), result);
+    weigh(by_rho, rho, rho_variance, described / (described + anywhere), result);
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_z;
     result.arm = map_from_reference_pixel_ * reference_pixel.homogeneous() + rho * reference_from_robot_;
     result.scale = rho;
@@ -191,14 +191,16 @@ class RayView {
 
   /// The one Gaussian that pulls as both do: a point that the prior describes has its error at the prior's mean, with
   /// the prior's spread along the segment; any other says nothing there, but for the bearing of a point near infinity.
-  void weigh(const Eigen::Matrix2d& S, const Eigen::Vector2d& by_rho, double rho, double rho_variance,
-             double chance_described, MatchResidual& result) const {
-    const Eigen::Matrix2d segment = by_rho * by_rho.transpose();
-    const Eigen::Matrix2d described = chance_described * (S + prior_.sigma * prior_.sigma * segment).inverse();
-    const Eigen::Matrix2d anywhere =
-        (1 - chance_described) * (S + (unknown_scale * rho * rho + rho_variance) * segment).inverse();
-    result.information = described + anywhere;
-    result.pixel_error += result.information.inverse() * described * by_rho * (prior_.mean - rho);
+  /// A variance v along the segment changes the information W to W - v / (1 + v / rho_variance) W b b^T W, b = by_rho.
+  void weigh(const Eigen::Vector2d& by_rho, double rho, double rho_variance, double chance_described,
+             MatchResidual& result) const {
+    const double prior_variance = prior_.sigma * prior_.sigma;
+    const double unknown_variance = unknown_scale * rho * rho + rho_variance;
+    const double described = chance_described / (1 + prior_variance / rho_variance);
+    const double anywhere = (1 - chance_described) / (1 + unknown_variance / rho_variance);
+    const Eigen::Vector2d along = result.information * by_rho;
+    result.information -= (described * prior_variance + anywhere * unknown_variance) * along * along.transpose();
+    result.pixel_error += described / (described + anywhere) * (prior_.mean - rho) * by_rho;
   }
 
   Eigen::Matrix3d pixel_from_map_;

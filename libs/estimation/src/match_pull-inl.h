@@ -45,7 +45,7 @@ HWY_INLINE void multiply(const PixelMatrix& M, Float u, Float v, Float& out_u, F
   out_v = mulAdd(M.uv, u, M.vv * v);
 }
 
-/// A residual (u, v) whose weight is W, both free of the depth that they were multiplied and divided by.
+/// Of a residual (u, v), depth times the pixel error, whose weight is W: the depth cancels in all products.
 HWY_INLINE MatchPull pullOf(Float odds, const PixelMatrix& W, Float u, Float v, const PixelSlope& across,
                             const PixelSlope& down) {
   const Float g_u[3] = {across.forward, across.left, across.turn}, g_v[3] = {down.forward, down.left, down.turn};
@@ -63,7 +63,7 @@ HWY_INLINE MatchPull pullOf(Float odds, const PixelMatrix& W, Float u, Float v, 
 
 /// For points in front of the camera.
 HWY_INLINE Float nearFade(Float excess_depth) {
-  const Float visible = hn::Min(excess_depth * single(1 / min_depth), all(1.0f));
+  const Float visible = hn::Min(excess_depth * allRounded(1 / min_depth), all(1.0f));
   return visible * visible;
 }
 

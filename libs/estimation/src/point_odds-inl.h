@@ -43,8 +43,8 @@ class PointOdds {
     const Residual r = at(term);
     const Float x = rounded(r.x), y = rounded(r.y);
     const auto slope = [&](const PlaneRow<double>& row, Float error) HWY_ATTR {
-      const Float by_x = negMulAdd(error, single(term.rows.depth.x), single(row.x));
-      const Float by_y = negMulAdd(error, single(term.rows.depth.y), single(row.y));
+      const Float by_x = negMulAdd(error, allRounded(term.rows.depth.x), allRounded(row.x));
+      const Float by_y = negMulAdd(error, allRounded(term.rows.depth.y), allRounded(row.y));
       return PixelSlope{by_x, by_y, negMulAdd(by_x, y, by_y * x)};
     };
     return pullOf(r.odds, r.weight, r.u, r.v, slope(term.rows.u, r.u * r.inverse_depth),
@@ -83,8 +83,8 @@ class PointOdds {
         squaredNorm(negMulAdd(v, a_0, u * b_0), negMulAdd(v, a_1, u * b_1), negMulAdd(v, a_2, u * b_2));
     const Float distance2 = mulAdd(depth2, squaredNorm(u, v), along2) * inverse_determinant;
     const Float ratio = all(term.peak_odds) * depth2 * hn::Sqrt(inverse_determinant) * gaussian(distance2) *
-                        nearFade(depth - single(min_depth));
-    r.odds = hn::IfThenElseZero(hn::And(depth > single(min_depth), distance2 < all(group_.cutoff)), ratio);
+                        nearFade(depth - allRounded(min_depth));
+    r.odds = hn::IfThenElseZero(hn::And(depth > allRounded(min_depth), distance2 < all(group_.cutoff)), ratio);
     r.weight = {(depth2 + b2) * inverse_determinant,
                 hn::Neg(mulAdd(a_0, b_0, mulAdd(a_1, b_1, a_2 * b_2))) * inverse_determinant,
                 (depth2 + a2) * inverse_determinant};

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -74,8 +73,6 @@ PoseRefiner::PoseRefiner(const PoseLikelihood& likelihood, const SoftPlane& plan
     : likelihood_(likelihood), sigma_(plane.sigma_tilt, plane.sigma_tilt, plane.sigma_height) {
   plane.check();
 }
-
-double PoseRefiner::freedom() const { return 3 + static_cast<double>((sigma_.array() > 0).count()); }
 
 double PoseRefiner::logPrior(const RefinedPose& pose) const {
   const Eigen::Vector3d off(pose.roll, pose.pitch, pose.height);
@@ -183,17 +180,9 @@ void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose)
   const Matrix6 axes = whiten * doubt.eigenvectors();
   const Matrix6 covariance = axes * left.cwiseInverse().asDiagonal() * axes.transpose();
   pose.covariance = covariance.topLeftCorner<3, 3>();
+  const auto freedom = 3 + static_cast<double>((sigma_.array() > 0).count());
   const double log_determinant = 2 * std::log(std::abs(whiten.determinant())) - left.array().log().sum();
-  pose.log_evidence = pose.log_likelihood + logPrior(pose) + freedom() * std::log(sqrt_2pi) + 0.5 * log_determinant;
-}
-
-double PoseRefiner::logEvidenceAbout(const RefinedPose& pose) const {
-  const Linearization linear = withPrior(pose);
-  const Eigen::LLT<Matrix6> root(linear.information);
-  if (root.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-  const double gain = 0.5 * linear.gradient.dot(root.solve(linear.gradient));
-  return pose.log_likelihood + logPrior(pose) + gain + freedom() * std::log(sqrt_2pi) -
-         root.matrixLLT().diagonal().array().log().sum();
+  pose.log_evidence = pose.log_likelihood + logPrior(pose) + freedom * std::log(sqrt_2pi) + 0.5 * log_determinant;
 }
 
 double PoseRefiner::inlierRate(const RefinedPose& pose) const {

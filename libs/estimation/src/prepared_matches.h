@@ -16,11 +16,11 @@ namespace vmcl {
 /// What every evaluation of the likelihood needs, laid out for its loops.
 struct PoseLikelihood::Prepared {
   Prepared(const PoseProblem& problem, const LikelihoodOptions& options);
-  void setInlierPrior(double inlier_prior);
+  Prepared(const Prepared& other, double inlier_prior);
 
   LikelihoodOptions options;
   InverseDepthPrior inverse_depth_prior;
-  OutlierDensity outlier_density;
+  std::optional<OutlierDensity> outlier_density;  ///< uniform if there is none
   MatchGroups matches;
   std::optional<LikelihoodTerms> terms;  ///< for many planar poses at once
 
@@ -48,6 +48,9 @@ struct PoseLikelihood::Prepared {
       }
     }
   }
+
+ private:
+  void weigh();
 };
 
 }  // namespace vmcl

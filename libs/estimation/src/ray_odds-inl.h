@@ -13,6 +13,37 @@ HWY_BEFORE_NAMESPACE();
 namespace vmcl {
 namespace HWY_NAMESPACE {
 
+/// S = depth^2 I + D D^T, the covariance of a residual times depth. Its determinant and inverse are sums of squares:
+/// differences would cancel where D is nearly singular.
+class ResidualCovariance {
+ public:
+  HWY_INLINE ResidualCovariance(Float depth2, Float D_00, Float D_01, Float D_10, Float D_11)
+      : depth2_(depth2), D_00_(D_00), D_01_(D_01), D_10_(D_10), D_11_(D_11) {
+    const Float determinant = negMulAdd(D_01, D_10, D_00 * D_11);
+    D_u2_ = squaredNorm(D_00, D_01);
+    D_v2_ = squaredNorm(D_10, D_11);
+    inverse_determinant_ = all(1.0f) / mulAdd(depth2, depth2 + D_u2_ + D_v2_, determinant * determinant);
+  }
+
+  HWY_INLINE Float inverseDeterminant() const { return inverse_determinant_; }
+
+  /// e^T S^-1 e.
+  HWY_INLINE Float distance2(Float e_u, Float e_v) const {
+    const Float through_D = squaredNorm(negMulAdd(D_10_, e_u, D_00_ * e_v), negMulAdd(D_11_, e_u, D_01_ * e_v));
+    return mulAdd(depth2_, squaredNorm(e_u, e_v), through_D) * inverse_determinant_;
+  }
+
+  HWY_INLINE PixelMatrix inverse() const {
+    const Float off_diagonal = hn::Neg(mulAdd(D_00_, D_10_, D_01_ * D_11_));
+    return {(depth2_ + D_v2_) * inverse_determinant_, off_diagonal * inverse_determinant_,
+            (depth2_ + D_u2_) * inverse_determinant_};
+  }
+
+ private:
+  Float depth2_, D_00_, D_01_, D_10_, D_11_;
+  Float D_u2_, D_v2_, inverse_determinant_;
+};
+
 /// Of matches without depth between one query and one reference camera.
 class RayOdds {
  public:
@@ -48,9 +79,9 @@ class RayOdds {
     const auto& [c, s, x, y] = poses_.coarse;
     const auto slope = [&](const PlaneRow<double>& infinite, const PlaneRow<double>& parallax, Float error) HWY_ATTR {
       const auto turned = [&](const PlaneRow<double>& row)
-                              HWY_ATTR { return negMulAdd(s, single(row.x), c * single(row.y)); };
-      const Float by_x = r.rho * negMulAdd(error, single(group_.parallax_depth.x), single(parallax.x));
-      const Float by_y = r.rho * negMulAdd(error, single(group_.parallax_depth.y), single(parallax.y));
+                              HWY_ATTR { return negMulAdd(s, allRounded(row.x), c * allRounded(row.y)); };
+      const Float by_x = r.rho * negMulAdd(error, allRounded(group_.parallax_depth.x), allRounded(parallax.x));
+      const Float by_y = r.rho * negMulAdd(error, allRounded(group_.parallax_depth.y), allRounded(parallax.y));
       const Float by_turn = mulAdd(error, turned(term.rows.infinite_depth), hn::Neg(turned(infinite)));
       return PixelSlope{by_x, by_y, by_turn + negMulAdd(by_x, coarse_y_, by_y * coarse_x_)};
     };
@@ -63,7 +94,7 @@ class RayOdds {
     multiply(r.weight, r.by_rho_u, r.by_rho_v, segment_u, segment_v);
     const Float information = r.information;
     const Float described = r.described / mulAdd(all(group_.prior_variance), information, all(1.0f));
-    const Float unknown = mulAdd(single(unknown_scale) * r.rho, r.rho, all(1.0f) / information);
+    const Float unknown = mulAdd(allRounded(unknown_scale) * r.rho, r.rho, all(1.0f) / information);
     const Float narrowing = mulAdd(described, all(group_.prior_variance),
                                    (all(1.0f) - r.described) * unknown / mulAdd(unknown, information, all(1.0f)));
     const Float along = mulAdd(r.u, segment_u, r.v * segment_v);
@@ -112,36 +143,30 @@ class RayOdds {
     const Float error_u = r.error_u = u * inverse_depth, error_v = r.error_v = v * inverse_depth;
     r.u = u;
     r.v = v;
-    // S = depth^2 I + D D^T with D depth times the derivative of the predicted by the reference pixel.
-    const Float pixel_u = mulAdd(all(group_.sigma_px), error_u, all(term.pixel_u_px));
-    const Float pixel_v = mulAdd(all(group_.sigma_px), error_v, all(term.pixel_v_px));
-    const Float D_00 = negMulAdd(pixel_u, homography_[2][0], homography_[0][0]);
-    const Float D_01 = negMulAdd(pixel_u, homography_[2][1], homography_[0][1]);
-    const Float D_10 = negMulAdd(pixel_v, homography_[2][0], homography_[1][0]);
-    const Float D_11 = negMulAdd(pixel_v, homography_[2][1], homography_[1][1]);
-    // Its determinant and inverse as sums of squares: differences would cancel where D is nearly singular.
-    const Float D_determinant = negMulAdd(D_01, D_10, D_00 * D_11);
-    const Float D_norm2 = squaredNorm(D_00, D_01) + squaredNorm(D_10, D_11);
-    const Float inverse_determinant = all(1.0f) / mulAdd(depth2, depth2 + D_norm2, D_determinant * D_determinant);
-    const auto distance2 = [&](Float e_u, Float e_v) HWY_ATTR {
-      const Float through_D = squaredNorm(negMulAdd(D_10, e_u, D_00 * e_v), negMulAdd(D_11, e_u, D_01 * e_v));
-      return mulAdd(depth2, squaredNorm(e_u, e_v), through_D) * inverse_determinant;
-    };
-    const Float error2 = distance2(u, v);
+    const ResidualCovariance S = covariance(term, depth2, error_u, error_v);
+    const Float error2 = S.distance2(u, v);
     const Float by_rho_u = r.by_rho_u = negMulAdd(error_u, parallax_depth_, parallax_u);
     const Float by_rho_v = r.by_rho_v = negMulAdd(error_v, parallax_depth_, parallax_v);
-    r.information = distance2(by_rho_u, by_rho_v) + single(tiny_information);
-    const Float peak = all(term.peak_odds) * depth2 * hn::Sqrt(inverse_determinant);
+    r.information = S.distance2(by_rho_u, by_rho_v) + allRounded(tiny_information);
+    const Float peak = all(term.peak_odds) * depth2 * hn::Sqrt(S.inverseDeterminant());
     const Float along =
         alongSegment(rho, r.information, squaredNorm(by_rho_u, by_rho_v) * inverse_depth * inverse_depth, r.described);
-    const Float near_depth = rho * single(min_depth);
+    const Float near_depth = rho * allRounded(min_depth);
     const Float ratio = peak * gaussian(error2) * along * nearFade(depth - near_depth);
-    const Mask in_front = depth > hn::Max(near_depth, single(min_ray_depth));
+    const Mask in_front = depth > hn::Max(near_depth, allRounded(min_ray_depth));
     r.odds = hn::IfThenElseZero(hn::And(in_front, error2 < all(group_.cutoff)), ratio);
-    const Float D_u2 = squaredNorm(D_00, D_01), D_v2 = squaredNorm(D_10, D_11);
-    r.weight = {(depth2 + D_v2) * inverse_determinant, hn::Neg(mulAdd(D_00, D_10, D_01 * D_11)) * inverse_determinant,
-                (depth2 + D_u2) * inverse_determinant};
+    r.weight = S.inverse();
     return r;
+  }
+
+  /// D is depth times the derivative of the predicted by the reference pixel.
+  HWY_INLINE ResidualCovariance covariance(const RayTerm& term, Float depth2, Float error_u, Float error_v) const {
+    const Float pixel_u = mulAdd(all(group_.sigma_px), error_u, all(term.pixel_u_px));
+    const Float pixel_v = mulAdd(all(group_.sigma_px), error_v, all(term.pixel_v_px));
+    return {depth2, negMulAdd(pixel_u, homography_[2][0], homography_[0][0]),
+            negMulAdd(pixel_u, homography_[2][1], homography_[0][1]),
+            negMulAdd(pixel_v, homography_[2][0], homography_[1][0]),
+            negMulAdd(pixel_v, homography_[2][1], homography_[1][1])};
   }
 
   HWY_INLINE Float inverseParallax2(Float parallax_u, Float parallax_v) const {
@@ -152,7 +177,7 @@ class RayOdds {
   static HWY_INLINE Float nearestInverseDepth(Float u, Float v, Float parallax_u, Float parallax_v, Float per_parallax2,
                                               Float from) {
     const Float step = hn::Neg(mulAdd(u, parallax_u, v * parallax_v)) * per_parallax2;
-    return hn::Min(hn::Max(step, hn::Neg(from)), single(max_inverse_depth) - from);
+    return hn::Min(hn::Max(step, hn::Neg(from)), allRounded(max_inverse_depth) - from);
   }
 
   /// Density at rho, known with this information, over the peak of the measurement's density; and the chance that the

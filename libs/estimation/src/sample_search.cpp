@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "best_distinct.h"
 #include "minimal_sampler.h"
-#include "vmcl/estimation/sample_consensus.h"
 
 namespace vmcl {
 namespace {
@@ -52,11 +52,12 @@ class Search {
   bool canDraw() const { return !kinds_.empty(); }
 
   /// The best hypotheses, alike ones once, the best first.
-  std::vector<ScoredHypothesis<Hypothesis>> best(int count) const {
-    const auto score = [&](std::span<const Hypothesis>, std::span<double> scores) {
-      std::copy(scores_.begin(), scores_.end(), scores.begin());
-    };
-    return bestHypotheses(hypotheses_, count, score, alike);
+  std::vector<Hypothesis> best(int count) const {
+    const auto are_alike = [&](std::size_t a, std::size_t b) { return alike(hypotheses_[a], hypotheses_[b]); };
+    std::vector<Hypothesis> result;
+    for (const std::size_t i : bestDistinct(scores_, static_cast<std::size_t>(count), are_alike))
+      result.push_back(hypotheses_[i]);
+    return result;
   }
 
  private:
@@ -112,9 +113,7 @@ std::optional<std::vector<Hypothesis>> searchSamples(const PoseProblem& problem,
                                                      const EstimatorOptions& options) {
   const Search search(problem, likelihood, options);
   if (!search.canDraw()) return std::nullopt;
-  std::vector<Hypothesis> best;
-  for (const auto& [hypothesis, score] : search.best(options.refined)) best.push_back(hypothesis);
-  return best;
+  return search.best(options.refined);
 }
 
 }  // namespace vmcl

@@ -66,11 +66,11 @@ HWY_INLINE Double widened(Float a) {
 }
 #endif
 
-/// a b + c, c - a b, and the number in all lanes.
+/// a b + c, c - a b, and the number in all lanes, as it is or rounded to single precision.
 HWY_INLINE Float mulAdd(Float a, Float b, Float c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE Float negMulAdd(Float a, Float b, Float c) { return hn::NegMulAdd(a, b, c); }
 HWY_INLINE Float all(float value) { return hn::Set(FloatTag(), value); }
-HWY_INLINE Float single(double value) { return all(static_cast<float>(value)); }
+HWY_INLINE Float allRounded(double value) { return all(static_cast<float>(value)); }
 
 /// row over the vector (x, y).
 template <class T, class Lanes>

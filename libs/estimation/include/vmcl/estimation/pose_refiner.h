@@ -69,10 +69,6 @@ class PoseRefiner {
   /// sizes differ.
   void linearize(std::span<const PlanarTransform> poses, std::span<PlanarSlope> slopes) const;
 
-  /// Log evidence of the peak that a quadratic L with the slope at this pose would have: a score test of whether the
-  /// plane allows enough, without climbing there. Minus infinity where the matches fix nothing.
-  double logEvidenceAbout(const RefinedPose& pose) const;
-
   /// Share of inliers among the matches as this pose shows it, weighed with the prior's as if of 15 more matches.
   double inlierRate(const RefinedPose& pose) const;
 
@@ -80,7 +76,6 @@ class PoseRefiner {
   std::vector<int> inliers(const RefinedPose& pose) const;
 
  private:
-  double freedom() const;
   double logPrior(const RefinedPose& pose) const;
   Linearization withPrior(const RefinedPose& pose) const;
   void setUncertainty(const Linearization& linear, RefinedPose& pose) const;
