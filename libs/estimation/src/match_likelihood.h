@@ -30,6 +30,10 @@ inline constexpr double unknown_scale = 100;
 /// Share of the points without depth that the prior of the inverse depth describes.
 inline constexpr double described_share = 0.7;
 
+/// What the prior counts for where the pose is sought, over what it would if it told of each match by itself: it is
+/// one prior, learned from few points, so that its error is common to all.
+inline constexpr double prior_weight = 0.3;
+
 /// Odds that a match of exact points and no residual is an inlier.
 inline double peakOdds(const PinholeCamera& camera, const LikelihoodOptions& options) {
   const double odds = options.inlier_prior / (1 - options.inlier_prior);
@@ -189,15 +193,17 @@ class RayView {
     return std::min(std::sqrt(2 * std::numbers::pi * rho_variance * by_rho2 / area_), 1.0);
   }
 
-  /// The one Gaussian that pulls as both do: a point that the prior describes has its error at the prior's mean, with
-  /// the prior's spread along the segment; any other says nothing there, but for the bearing of a point near infinity.
-  /// A variance v along the segment changes the information W to W - v / (1 + v / rho_variance) W b b^T W, b = by_rho.
+  /// The one Gaussian that pulls as both do, the prior as far as it counts: a point that the prior describes has its
+  /// error at the prior's mean, with the prior's spread along the segment; any other says nothing there, but for the
+  /// bearing of a point near infinity. A variance v along the segment changes the information W to W - v / (1 + v /
+  /// rho_variance) W b b^T W, b = by_rho.
   void weigh(const Eigen::Vector2d& by_rho, double rho, double rho_variance, double chance_described,
              MatchResidual& result) const {
     const double prior_variance = prior_.sigma * prior_.sigma;
     const double unknown_variance = unknown_scale * rho * rho + rho_variance;
-    const double described = chance_described / (1 + prior_variance / rho_variance);
-    const double anywhere = (1 - chance_described) / (1 + unknown_variance / rho_variance);
+    const double prior_share = prior_weight * chance_described;
+    const double described = prior_share / (1 + prior_variance / rho_variance);
+    const double anywhere = (1 - prior_share) / (1 + unknown_variance / rho_variance);
     const Eigen::Vector2d along = result.information * by_rho;
     result.information -= (described * prior_variance + anywhere * unknown_variance) * along * along.transpose();
     result.pixel_error += described / (described + anywhere) * (prior_.mean - rho) * by_rho;

@@ -93,10 +93,11 @@ class RayOdds {
     Float segment_u, segment_v;
     multiply(r.weight, r.by_rho_u, r.by_rho_v, segment_u, segment_v);
     const Float information = r.information;
-    const Float described = r.described / mulAdd(all(group_.prior_variance), information, all(1.0f));
+    const Float prior_share = allRounded(prior_weight) * r.described;
+    const Float described = prior_share / mulAdd(all(group_.prior_variance), information, all(1.0f));
     const Float unknown = mulAdd(allRounded(unknown_scale) * r.rho, r.rho, all(1.0f) / information);
     const Float narrowing = mulAdd(described, all(group_.prior_variance),
-                                   (all(1.0f) - r.described) * unknown / mulAdd(unknown, information, all(1.0f)));
+                                   (all(1.0f) - prior_share) * unknown / mulAdd(unknown, information, all(1.0f)));
     const Float along = mulAdd(r.u, segment_u, r.v * segment_v);
     const Float to_mean = negMulAdd(narrowing, along, described * (all(group_.prior_mean) - r.rho));
     const Float h[3] = {mulAdd(across.forward, segment_u, down.forward * segment_v),
