@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "choice_option.h"
 #include "estimation_json.h"
 #include "ordered_parallel.h"
 #include "verbs.h"
@@ -21,6 +22,24 @@ struct EstimateOptions {
 struct Answer {
   std::string line;
   std::string complaint;  ///< empty when the problem was well formed
+  std::size_t number = 0;
+  std::set<std::string> unknown_keys;
+};
+
+/// Names each unknown key once.
+class UnknownKeys {
+ public:
+  bool any() const { return !named_.empty(); }
+
+  void name(const Answer& answer) {
+    for (const std::string& key : answer.unknown_keys)
+      if (named_.insert(key).second)
+        std::cerr << "vmcl estimate: <stdin> line " << answer.number << ": unknown key \"" << key
+                  << "\" is passed over, here and below\n";
+  }
+
+ private:
+  std::set<std::string> named_;
 };
 
 Answer answer(const std::string& line, std::size_t number, const EstimateOptions& options) {
@@ -30,15 +49,17 @@ Answer answer(const std::string& line, std::size_t number, const EstimateOptions
     const auto start = std::chrono::steady_clock::now();
     const PoseEstimate estimate = estimatePose(identified.problem, options.estimator);
     const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
-    return {formatEstimate(id, estimate, options.time ? std::optional(elapsed.count()) : std::nullopt), ""};
+    return {formatEstimate(id, estimate, options.time ? std::optional(elapsed.count()) : std::nullopt), "", number,
+            identified.unknown_keys};
   } catch (const std::exception& error) {
-    return {formatError(id, error.what()), "line " + std::to_string(number) + ": " + error.what()};
+    return {formatError(id, error.what()), "line " + std::to_string(number) + ": " + error.what(), number, {}};
   }
 }
 
 int run(const EstimateOptions& options) {
   options.estimator.check();
   std::size_t problems = 0, bad = 0;
+  UnknownKeys unknown_keys;
   std::string line;
   std::size_t number = 0;
   const auto next = [&](std::pair<std::string, std::size_t>& job) {
@@ -56,6 +77,7 @@ int run(const EstimateOptions& options) {
   const auto write = [&](const Answer& done) {
     ++problems;
     std::cout << done.line << '\n';
+    unknown_keys.name(done);
     if (done.complaint.empty()) return;
     ++bad;
     std::cerr << "vmcl estimate: <stdin> " << done.complaint << '\n';
@@ -64,7 +86,8 @@ int run(const EstimateOptions& options) {
   std::cout.flush();
   if (!std::cout) throw std::runtime_error("<stdout>: cannot be written");
   if (problems == 0) throw std::runtime_error("<stdin>: no problem, expected one JSON object a line");
-  return bad == 0 ? exit_done : bad < problems ? exit_some_input_bad : exit_failed;
+  if (bad == problems) return exit_failed;
+  return bad == 0 && !unknown_keys.any() ? exit_done : exit_some_input_bad;
 }
 
 }  // namespace
@@ -76,9 +99,7 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
                                                      {"1p1dp", Solver::one_point_one_depth},
                                                      {"2dp", Solver::two_depth},
                                                      {"3p", Solver::three_rays}};
-  verb->add_option("--solver", options->estimator.solver, "kind of samples drawn: auto, 1p1dp, 2dp or 3p")
-      ->transform(CLI::CheckedTransformer(solvers))
-      ->default_str("auto");
+  addChoice(*verb, "--solver", options->estimator.solver, solvers, "kind of samples drawn")->default_str("auto");
   verb->add_option("--iterations", options->estimator.iterations, "most samples drawn")->capture_default_str();
   verb->add_option("--seed", options->estimator.seed, "same seed, same answers")
       ->check(CLI::NonNegativeNumber)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimation_json.h"
 
+#include <algorithm>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -14,6 +16,12 @@ const Json& member(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) throw std::invalid_argument(std::string("\"") + key + "\" is missing");
   return *found;
+}
+
+/// Adds the keys of an object that mean nothing.
+void addUnknownKeys(const Json& object, std::initializer_list<std::string_view> known, std::set<std::string>& unknown) {
+  for (const auto& [key, value] : object.items())
+    if (std::find(known.begin(), known.end(), key) == known.end()) unknown.insert(key);
 }
 
 double number(const Json& object, const char* key) {
@@ -99,15 +107,21 @@ IdentifiedProblem parseProblem(const std::string& line, std::string& id) {
   if (json.is_discarded()) throw std::invalid_argument("not JSON");
   const Json& name = member(json, "id");
   id = name.is_string() ? name.get<std::string>() : name.dump();
-  IdentifiedProblem result{id, {}};
-  for (const Json& camera : array(json, "query_cameras"))
-    result.problem.query_cameras.push_back({parseCamera(camera), parsePose(camera, "robot_from_camera")});
-  for (const Json& camera : array(json, "reference_cameras"))
-    result.problem.reference_cameras.push_back({parseCamera(camera), parsePose(camera, "map_from_camera")});
+  IdentifiedProblem result{id, {}, {}};
+  addUnknownKeys(json, {"id", "query_cameras", "reference_cameras", "matches"}, result.unknown_keys);
+  const auto parseCameras = [&](const char* key, const char* pose_key, auto& cameras) {
+    for (const Json& camera : array(json, key)) {
+      cameras.push_back({parseCamera(camera), parsePose(camera, pose_key)});
+      addUnknownKeys(camera, {"width", "height", "fx", "fy", "cx", "cy", pose_key}, result.unknown_keys);
+    }
+  };
+  parseCameras("query_cameras", "robot_from_camera", result.problem.query_cameras);
+  parseCameras("reference_cameras", "map_from_camera", result.problem.reference_cameras);
   const Json& matches = array(json, "matches");
   for (std::size_t i = 0; i < matches.size(); ++i) {
     try {
       result.problem.matches.push_back(parseMatch(matches[i], result.problem.reference_cameras));
+      addUnknownKeys(matches[i], {"q", "uv", "r", "ref_uv", "point", "sigma_depth"}, result.unknown_keys);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("match " + std::to_string(i) + ": " + error.what());
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "vmcl/estimation/estimator.h"
@@ -12,6 +13,7 @@ namespace vmcl {
 struct IdentifiedProblem {
   std::string id;
   PoseProblem problem;
+  std::set<std::string> unknown_keys;  ///< that were passed over: often a known one, misspelt
 };
 
 /// Reads one line of `vmcl estimate`'s input (doc/file_formats.md). Sets `id` as soon as it is known, so that an error

@@ -84,7 +84,10 @@ int evaluate(const EvaluateRequest& request) {
   if (request.list) return listJobs(request, experiment, plan.jobs);
   if (!request.job.empty()) return runOneJob(request, experiment, plan.jobs);
   const DirectoryLock lock(request.directory, DirectoryLock::Kind::alone);
-  if (!request.report_only) runMissingJobs(request, experiment, plan.jobs);
+  if (request.report_only)
+    runnerOf(request, experiment).removeUnfinished();
+  else
+    runMissingJobs(request, experiment, plan.jobs);
   return report(request, experiment, plan);
 }
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 
+#include "choice_option.h"
+#include "coverage.h"
 #include "problem_report.h"
 #include "replay.h"
 #include "verbs.h"
@@ -37,6 +39,14 @@ void startNearTruth(const Trajectory& ground_truth, LocalizationConfig& config, 
   config.start_in_free_space = false;
 }
 
+/// Says when the ini's map is used beside those of the command line: one of them for the laser, one for the camera.
+void printMaps(const Request& request, const LocalizationConfig& config) {
+  const auto& given = request.maps;
+  if (!given.empty() && !config.map_file.empty() &&
+      std::find(given.begin(), given.end(), config.map_file) == given.end())
+    std::cout << "beside --map also the ini's map_file is used: " << config.map_file.string() << '\n';
+}
+
 void printSummary(const LocalizationRun& run) {
   std::cout << std::fixed << std::setprecision(3);
   const auto first =
@@ -54,7 +64,6 @@ void printSummary(const LocalizationRun& run) {
   }
   if (!run.ground_truth) return;
   const TrajectoryEvaluation evaluation = evaluateTrajectory(estimatesOf(run.frames), *run.ground_truth);
-  if (evaluation.compared == 0) std::cout << "the ground truth covers no update\n";
   if (evaluation.compared > 0 && !evaluation.time_to_converge) std::cout << "never converged to the ground truth\n";
   if (evaluation.time_to_converge)
     std::cout << "converged after " << *evaluation.time_to_converge << " s, from then on RMSE "
@@ -88,12 +97,17 @@ int localize(const Request& request) {
   if (!request.kidnapping.empty()) plan.kidnapping = {request.kidnapping[0], request.kidnapping[1]};
   if (request.start == "given") startNearTruth(*run.ground_truth, config, plan);
   Localizer localizer(config, loadMaps(config));
-  const ProblemReport problems = replay(plan, localizer, run);
+  ProblemReport problems = replay(plan, localizer, run);
   if (run.frames.empty())
     throw std::runtime_error(problems.empty()
                                  ? config.rawlog_file.string() + ": no observation that the configured maps can use"
                                  : problems.inOneLine());
+  const std::vector<TimedEstimate> estimates = estimatesOf(run.frames);
+  if (run.ground_truth && evaluateTrajectory(estimates, *run.ground_truth).compared == 0)
+    problems.add(request.ground_truth.string() + ": " +
+                 coversNothing(*run.ground_truth, estimates.front().time, estimates.back().time));
   problems.print("localize");
+  printMaps(request, config);
   printSummary(run);
   if (!request.out.empty()) writeAll(request.out, request.tables_only, run, localizer);
   return problems.empty() ? exit_done : exit_some_input_bad;
@@ -114,9 +128,8 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--groundtruth", request->ground_truth, "True poses in the map, TUM format, to compare with");
   verb->add_option("--set", request->changes.values, "SECTION.KEY=VALUE instead of the ini's; may be repeated");
   static const std::map<std::string, Sensors> sensors(sensors_by_name.begin(), sensors_by_name.end());
-  verb->add_option("--sensors", request->changes.sensors,
-                   "Use only the maps of these: camera, laser, both (some of each) or odometry (none)")
-      ->transform(CLI::CheckedTransformer(sensors));
+  addChoice(*verb, "--sensors", request->changes.sensors, sensors,
+            "Use only the maps of these: both needs some of each, odometry uses none");
   verb->add_option(
           "--start", request->start,
           "Instead of the ini's: global (anywhere in the maps) or given (within 0.2 m and 10 deg of the ground "

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <iomanip>
 #include <iostream>
 #include <memory>
 
@@ -35,16 +36,17 @@ struct MapArguments {
 };
 
 void print(const MapBuildReport& report, const KeyframeMap& map, const PosedImages& images) {
-  std::cout << images.images() << " images, " << images.imagesWithoutPose() << " of them without a pose; "
-            << report.keyframes << " keyframes, " << report.features << " features\n"
+  std::cout << std::fixed << std::setprecision(2) << images.images() << " images, " << images.imagesWithoutPose()
+            << " of them without a pose; " << report.keyframes << " keyframes, " << report.features << " features\n"
             << report.landmarks << " landmarks, seen " << report.mean_observations
             << " times each, median reprojection error " << report.median_reprojection_px << " px\n";
   for (std::size_t i = 0; i < map.cameras.size(); ++i) {
     const Eigen::Vector3d turn_deg = report.mount_correction[i] / degree;
     const Eigen::Vector3d& shift = report.mount_shift[i];
     std::cout << "camera '" << map.cameras[i].label << "': mount turned by roll " << turn_deg.x() << ", pitch "
-              << turn_deg.y() << ", yaw " << turn_deg.z() << " deg, shifted by x " << shift.x() << ", y " << shift.y()
-              << " m, focal length times " << report.focal_scale[i] << '\n';
+              << turn_deg.y() << ", yaw " << turn_deg.z() << " deg, shifted by x " << std::setprecision(3) << shift.x()
+              << ", y " << shift.y() << " m, focal length times " << report.focal_scale[i] << std::setprecision(2)
+              << '\n';
   }
 }
 
@@ -52,11 +54,13 @@ int runInfo(const std::string& file) {
   const KeyframeMap map = loadMap(file);
   std::cout << file << ": " << map.keyframes.size() << " keyframes, " << map.landmarks.size() << " landmarks, "
             << nameOf(map.feature_options.kind) << " features, " << map.vocabulary.words().rows()
-            << " words of place recognition\n";
+            << " words of place recognition\n"
+            << std::fixed;
   for (const MapCamera& camera : map.cameras) {
     const PinholeCamera& pinhole = camera.calibration.pinhole;
-    std::cout << "camera '" << camera.label << "': " << pinhole.width << "x" << pinhole.height << ", fx " << pinhole.fx
-              << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy << ", distortion "
+    std::cout << "camera '" << camera.label << "': " << pinhole.width << "x" << pinhole.height << std::setprecision(2)
+              << ", fx " << pinhole.fx << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy
+              << ", distortion " << std::setprecision(4)
               << Eigen::Map<const Eigen::RowVector<double, 5>>(camera.calibration.distortion.data()) << ", mounted at "
               << camera.robot_from_camera.translation().transpose() << " m, " << camera.mask_rows_from_top
               << " rows masked\n";

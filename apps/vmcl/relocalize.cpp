@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "camera_stream.h"
+#include "coverage.h"
 #include "ordered_parallel.h"
 #include "progress_bar.h"
 #include "relocalization_report.h"
@@ -74,9 +75,12 @@ ExitCode run(const Arguments& arguments) {
   if (!arguments.groundtruth.empty()) groundtruth = readTumTrajectory(arguments.groundtruth);
   CameraStream stream(arguments.rawlog);
   const std::vector<ImageResult> results = relocalizeAll(stream, relocalizer, groundtruth, arguments.threads);
-  const ProblemReport& problems = stream.problems();
+  ProblemReport problems = stream.problems();
   if (results.empty())
     throw std::runtime_error(problems.empty() ? arguments.rawlog + ": no camera images" : problems.inOneLine());
+  if (!arguments.groundtruth.empty() &&
+      std::none_of(results.begin(), results.end(), [](const ImageResult& image) { return image.has_truth; }))
+    problems.add(arguments.groundtruth + ": " + coversNothing(groundtruth, results.front().time, results.back().time));
   problems.print("relocalize");
   if (!arguments.out.empty()) {
     const std::filesystem::path directory = arguments.out;

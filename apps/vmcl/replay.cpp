@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 
+#include "coverage.h"
 #include "progress_bar.h"
 #include "vmcl/datasets/rawlog_reader.h"
 #include "vmcl/mrpt/error_message.h"
@@ -72,11 +73,17 @@ ProblemReport replay(const Replay& replay, Localizer& localizer, LocalizationRun
 double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& ground_truth) {
   RawlogReader reader(rawlog);
   RawlogEntry entry;
+  std::optional<double> first, last;
   while (reader.next(entry)) {
     if (std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(entry.observation)) continue;
-    if (const auto time = timeOf(entry); time && ground_truth.at(*time)) return *time;
+    const auto time = timeOf(entry);
+    if (!time) continue;
+    if (ground_truth.at(*time)) return *time;
+    if (!first) first = time;
+    last = time;
   }
-  throw std::runtime_error(rawlog.string() + ": the ground truth covers no observation");
+  throw std::runtime_error(rawlog.string() + ": " +
+                           (first ? coversNothing(ground_truth, *first, *last) : "holds no observation with a time"));
 }
 
 }  // namespace vmcl

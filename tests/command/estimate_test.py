@@ -114,6 +114,22 @@ class EstimateTest(CommandTest):
         broken['query_cameras'][0]['robot_from_camera'] = [0] * 12
         self.assert_bad_line(json.dumps(broken), 'query camera 0', 'rotation')
 
+    def test_unknown_keys_are_named_once_and_passed_over(self):
+        good = problem('good', (0.3, 0.1, 0.2))
+        camera_with_more, match_with_more = problem('camera', (0.3, 0.1, 0.2)), problem('match', (0.3, 0.1, 0.2))
+        camera_with_more['query_cameras'][0]['focal'] = 1
+        for match in match_with_more['matches']:
+            match['sigma_dpeth'] = 1
+        result = self.vmcl('estimate', stdin=lines(good, {**good, 'truth': 1}, {**good, 'truth': 2}, camera_with_more,
+                                                   match_with_more))
+        self.assertEqual(result.returncode, SOME_INPUT_BAD)
+        self.assertEqual([json.loads(line)['status'] for line in result.stdout.splitlines()], ['ok'] * 5)
+        complaints = result.stderr.splitlines()
+        self.assertEqual(len(complaints), 3)
+        for complaint, words in zip(complaints, (('line 2', 'truth'), ('line 4', 'focal'), ('line 5', 'sigma_dpeth'))):
+            for word in words:
+                self.assertIn(word, complaint)
+
     def test_only_bad_lines(self):
         self.assert_complaint(self.vmcl('estimate', stdin='garbage\n'), FAILED, '<stdin>', 'line 1')
 

@@ -74,7 +74,8 @@ class EvaluateTest(CommandTest):
         self.assertEqual(len(after), 8)
         self.assertLessEqual(before.items(), after.items())
         self.assertEqual(self.tables('killed'), self.tables('whole'))
-        self.assertFalse(self.path('killed/unfinished').exists() and any(self.path('killed/unfinished').iterdir()))
+        for left_over in ('unfinished', 'lock'):
+            self.assertFalse(self.path(f'killed/{left_over}').exists(), left_over)
 
     def test_report(self):
         self.write('experiment.yaml', GOOD.replace('[laser]', '[camera, laser, both, odometry]')
@@ -100,6 +101,13 @@ class EvaluateTest(CommandTest):
         for name in ('frames.csv', 'summary.json', 'trajectory.tum'):
             self.assertEqual(self.path(f'again/{name}').read_bytes(),
                              self.path(f'out/runs/{jobs[0]["id"]}/{name}').read_bytes())
+
+    def test_ground_truth_of_another_log(self):
+        self.write('other.tum', '5000 0 0 0 0 0 0 1\n5040.5 1 0 0 0 0 0 1\n')
+        self.write('experiment.yaml', GOOD.replace(f'ground_truth: {SAMPLE}/start.groundtruth.tum',
+                                                   'ground_truth: other.tum').replace('seeds: 8', 'seeds: 1'))
+        result = self.vmcl('evaluate', self.experiment, '-o', 'out')
+        self.assert_complaint(result, SOME_INPUT_BAD, 'other.tum', '5000.0 to 5040.5 s', '1000.0 to 10')
 
     def assert_page_is_whole(self, page):
         opened, pictures, outside = [], 0, []

@@ -49,7 +49,7 @@ class SimulateTest(CommandTest):
         self.assert_scene_refused(good.replace('rays: 361', 'rays: 361\n  no_such_key: 1'), 'no_such_key')
 
     def test_bad_arguments(self):
-        for arguments, word in ((['--session', 'nowhere'], 'nowhere'), ([], 'session'),
+        for arguments, word in ((['--session', 'nowhere'], 'nowhere'), ([], '--session from: map, query'),
                                 (['--session', 'map', '--duration', '-1'], 'duration'),
                                 (['--session', 'map', '--duration', 'nan'], 'duration'),
                                 (['--session', 'map', '--seed', '-1'], 'seed')):

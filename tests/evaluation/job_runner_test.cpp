@@ -48,7 +48,7 @@ TEST_F(JobRunnerTest, MakesAllRuns) {
     EXPECT_TRUE(endOf(job).done) << job.id;
     EXPECT_TRUE(fs::exists(path("out") / "runs" / job.id / "frames.csv"));
   }
-  EXPECT_TRUE(fs::is_empty(path("out") / "unfinished"));
+  EXPECT_FALSE(fs::exists(path("out") / "unfinished"));
 }
 
 TEST_F(JobRunnerTest, AFailedRunIsRecordedAndTheOthersGoOn) {
@@ -128,8 +128,12 @@ TEST_F(JobRunnerTest, OnlyOneFillsADirectoryAlone) {
     const DirectoryLock one(path("out"), Kind::shared), other(path("out"), Kind::shared);
     EXPECT_THROW(DirectoryLock(path("out"), Kind::alone), std::runtime_error);
   }
-  const DirectoryLock alone(path("out"), Kind::alone);
-  EXPECT_THROW(DirectoryLock(path("out"), Kind::shared), std::runtime_error);
+  EXPECT_TRUE(fs::is_empty(path("out")));
+  {
+    const DirectoryLock alone(path("out"), Kind::alone);
+    EXPECT_THROW(DirectoryLock(path("out"), Kind::shared), std::runtime_error);
+  }
+  EXPECT_TRUE(fs::is_empty(path("out")));
 }
 
 }  // namespace

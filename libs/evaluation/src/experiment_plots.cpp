@@ -31,20 +31,18 @@ std::string pathsCommands(const ExperimentResults& results, const CellGroup& gro
   paths.back().style = "with lines lw 7 lc rgb '#f3dc7a'";  // the paths lie on it
   for (std::size_t c = 0; c < group.cells.size(); ++c) {
     if (group.cells[c].done.empty()) continue;
-    PlotLayer path{nameOf(results.experiment, group.cells[c].method), "with lines lw 1.5 " + lineStyle(c), {}};
-    for (const RunUpdate& update : group.cells[c].done.front()->updates) {
-      if (update.estimate.localized)
-        path.points << update.estimate.robot_in_map.x << ' ' << update.estimate.robot_in_map.y;
-      path.points << '\n';
-    }
-    paths.push_back(std::move(path));
+    std::vector<TimedEstimate> estimates;
+    for (const RunUpdate& update : group.cells[c].done.front()->updates) estimates.push_back(update.estimate);
+    paths.push_back(
+        pathLayer(nameOf(results.experiment, group.cells[c].method), "with lines lw 1.5 " + lineStyle(c), estimates));
   }
   std::erase_if(paths, [](const PlotLayer& layer) { return layer.empty(); });
   std::ostringstream commands;
   writeData(commands, "map", map);
   writeData(commands, "path", paths);
-  commands << plain_axes << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset key outside\nplot "
-           << plotOf("map", map) << (map.empty() ? "" : ", ") << plotOf("path", paths) << '\n';
+  commands << plain_axes << viewOf(paths)
+           << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset key outside\nplot " << plotOf("map", map)
+           << (map.empty() ? "" : ", ") << plotOf("path", paths) << '\n';
   return commands.str();
 }
 
@@ -99,7 +97,8 @@ std::string successCommands(const ExperimentResults& results, const CellGroup& g
            << "]\nset xlabel 'threshold [m], with 5 deg'\n";
   for (const double distance : success_distances)
     commands << "set arrow from " << distance << ",0 to " << distance << ",1.02 nohead dt 2 lc rgb '#999999'\n";
-  commands << "set multiplot layout 1,2 margins 0.07,0.83,0.17,0.9 spacing 0.09,0.1\n";
+  const bool compares = grid.cells.size() > 1;  // else the method is the best of them at all times
+  commands << "set multiplot layout 1," << (compares ? 2 : 1) << " margins 0.07,0.83,0.17,0.9 spacing 0.09,0.1\n";
   const auto panel = [&](const char* title, std::size_t first) {
     commands << "set title '" << title << "'\nplot ";
     for (std::size_t c = 0; c < grid.cells.size(); ++c)
@@ -110,7 +109,7 @@ std::string successCommands(const ExperimentResults& results, const CellGroup& g
   commands << "set key off\n";
   panel("success rate", 2);
   commands << "set key at screen 0.99,0.9 right top\n";
-  panel("over that of the best at each time", 2 + grid.cells.size());
+  if (compares) panel("over that of the best at each time", 2 + grid.cells.size());
   return commands.str();
 }
 
@@ -174,8 +173,9 @@ std::vector<GroupPicture> drawGroup(const std::filesystem::path& directory, cons
   draw("errors", "1000,560", errorCommands(results, group, grid),
        "Errors over time: median and quartiles over the runs, localized or not");
   draw("success", "1000,420", successCommands(results, group, grid),
-       "Success against threshold, at all times and of all seeds, localized or not. Right: over the rate that always "
-       "picking the best of the methods would reach");
+       std::string("Success against threshold, at all times and of all seeds, localized or not") +
+           (grid.cells.size() > 1 ? ". Right: over the rate that always picking the best of the methods would reach"
+                                  : ""));
   draw("boxes", "1000,380", boxCommands(results, group),
        "Over the runs: median, quartiles, whiskers of 1.5 times their distance");
   return pictures;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -34,21 +35,36 @@ void createDirectories(const fs::path& directory) {
   if (error) throw std::runtime_error(directory.string() + ": cannot be made: " + error.message());
 }
 
-}  // namespace
-
-DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind) {
-  createDirectories(directory);
-  const fs::path file = directory / "lock";
-  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw std::runtime_error(file.string() + ": cannot be opened: " + std::strerror(errno));
-  if (flock(descriptor_, (kind == Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
-  const int reason = errno;
-  close(descriptor_);
-  throw std::runtime_error(directory.string() +
-                           (reason == EWOULDBLOCK ? ": another vmcl evaluate is at work there" : ": cannot be locked"));
+/// Whether the path still names the open file: another holder of the lock may have removed it meanwhile.
+bool isAt(const fs::path& path, int descriptor) {
+  struct stat there {
+  }, here{};
+  return stat(path.c_str(), &there) == 0 && fstat(descriptor, &here) == 0 && there.st_ino == here.st_ino &&
+         there.st_dev == here.st_dev;
 }
 
-DirectoryLock::~DirectoryLock() { close(descriptor_); }
+}  // namespace
+
+DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind) : file_(directory / "lock") {
+  createDirectories(directory);
+  const int operation = (kind == Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
+  do {
+    if (descriptor_ >= 0) close(descriptor_);
+    descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw std::runtime_error(file_.string() + ": cannot be opened: " + std::strerror(errno));
+    if (flock(descriptor_, operation) == 0) continue;
+    const int reason = errno;
+    close(descriptor_);
+    throw std::runtime_error(directory.string() + (reason == EWOULDBLOCK ? ": another vmcl evaluate is at work there"
+                                                                         : ": cannot be locked"));
+  } while (!isAt(file_, descriptor_));
+}
+
+DirectoryLock::~DirectoryLock() {
+  const bool last = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+  if (last && isAt(file_, descriptor_)) unlink(file_.c_str());
+  close(descriptor_);
+}
 
 void JobRunner::writeJobList(const std::vector<Job>& jobs) {
   AtomicFile list(directory_ / "jobs.jsonl");
@@ -118,6 +134,7 @@ void JobRunner::run(const std::vector<Job>& jobs, int workers, const std::functi
     std::vector<std::jthread> threads;
     for (int i = 0; i < workers; ++i) threads.emplace_back(work);
   }
+  removeUnfinished();
   if (failure) std::rethrow_exception(failure);
 }
 

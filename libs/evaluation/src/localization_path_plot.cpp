@@ -10,17 +10,10 @@ namespace {
 std::vector<PlotLayer> layersOf(const LocalizationRun& run, const mrpt::maps::CMultiMetricMap& maps) {
   std::vector<PlotLayer> layers = mapLayers(maps);
   if (run.ground_truth) layers.push_back(groundTruthLayer(*run.ground_truth));
-  PlotLayer path{"localized", "with lines lw 2 lc rgb '#1f4fd8'", {}};
-  PlotLayer end{"end", "with points pt 7 ps 1 lc rgb '#d62728'", {}};
-  for (const LocalizationFrame& frame : run.frames) {
-    const PlanarPose& pose = frame.cluster.robot_in_map;
-    if (frame.localized) path.points << pose.x << ' ' << pose.y;
-    path.points << '\n';
-  }
-  if (!run.frames.empty() && run.frames.back().localized)
-    end.points << run.frames.back().cluster.robot_in_map.x << ' ' << run.frames.back().cluster.robot_in_map.y << '\n';
-  layers.push_back(std::move(path));
-  layers.push_back(std::move(end));
+  const std::vector<TimedEstimate> estimates = estimatesOf(run.frames);
+  layers.push_back(pathLayer("localized", "with lines lw 2 lc rgb '#1f4fd8'", estimates));
+  if (!estimates.empty())
+    layers.push_back(pathLayer("end", "with points pt 7 ps 1 lc rgb '#d62728'", {estimates.back()}));
   std::erase_if(layers, [](const PlotLayer& layer) { return layer.empty(); });
   return layers;
 }
@@ -28,7 +21,8 @@ std::vector<PlotLayer> layersOf(const LocalizationRun& run, const mrpt::maps::CM
 void writeScript(std::ostream& script, const std::vector<PlotLayer>& layers, const std::filesystem::path& svg,
                  const std::filesystem::path& png) {
   writeData(script, "layer", layers);
-  script << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset grid lc rgb '#dddddd'\nset key outside\n"
+  script << viewOf(layers)
+         << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset grid lc rgb '#dddddd'\nset key outside\n"
          << "set terminal svg size 900,700 background rgb 'white'\nset output " << quoted(svg) << "\nplot "
          << plotOf("layer", layers) << "\nset terminal pngcairo size 900,700\nset output " << quoted(png)
          << "\nreplot\n";

@@ -13,7 +13,7 @@ void addDash(std::ostringstream& points, double from_x, double to_x, double y) {
   points << from_x << ' ' << y << '\n' << to_x << ' ' << y << "\n\n";
 }
 
-/// A line for the occupied cells that lie beside each other.
+/// A box, as x, y and the limits of both, for the occupied cells that lie beside each other.
 void addOccupiedCells(const mrpt::maps::COccupancyGridMap2D& grid, std::ostringstream& points) {
   constexpr float max_free_probability = 0.4F;
   const auto occupied = [&](int x, int y) {
@@ -24,7 +24,10 @@ void addOccupiedCells(const mrpt::maps::COccupancyGridMap2D& grid, std::ostrings
     for (int x = 0; x < static_cast<int>(grid.getSizeX()); ++x) {
       const int first = x;
       while (occupied(x, y)) ++x;
-      if (x > first) addDash(points, grid.idx2x(first) - half_cell, grid.idx2x(x - 1) + half_cell, grid.idx2y(y));
+      const double from_x = grid.idx2x(first) - half_cell, to_x = grid.idx2x(x - 1) + half_cell, at_y = grid.idx2y(y);
+      if (x > first)
+        points << from_x << ' ' << at_y << ' ' << from_x << ' ' << to_x << ' ' << at_y - half_cell << ' '
+               << at_y + half_cell << '\n';
     }
 }
 
@@ -44,11 +47,16 @@ void addVisualMap(const KeyframeMap& map, std::ostringstream& landmarks, std::os
 
 }  // namespace
 
+void PlotLayer::addToPath(double x, double y) {
+  points << x << ' ' << y << '\n';
+  path_area.extend(Eigen::Vector2d(x, y));
+}
+
 std::vector<PlotLayer> mapLayers(const mrpt::maps::CMultiMetricMap& maps) {
   std::vector<PlotLayer> layers;
-  layers.push_back({"occupied", "with lines lw 3.5 lc rgb '#505050'", {}});
-  layers.push_back({"landmarks", "with lines lw 1.2 lc rgb '#a8a8a8'", {}});
-  layers.push_back({"keyframes", "with points pt 7 ps 0.4 lc rgb '#e0903a'", {}});
+  layers.push_back({"occupied", "with boxxyerror fs solid lc rgb '#505050'", {}, {}});
+  layers.push_back({"landmarks", "with lines lw 1.2 lc rgb '#a8a8a8'", {}, {}});
+  layers.push_back({"keyframes", "with points pt 7 ps 0.4 lc rgb '#e0903a'", {}, {}});
   for (const auto& map : maps.maps) {
     if (const auto* grid = dynamic_cast<const mrpt::maps::COccupancyGridMap2D*>(map.get()))
       addOccupiedCells(*grid, layers[0].points);
@@ -60,10 +68,32 @@ std::vector<PlotLayer> mapLayers(const mrpt::maps::CMultiMetricMap& maps) {
 }
 
 PlotLayer groundTruthLayer(const Trajectory& ground_truth) {
-  PlotLayer truth{"ground truth", "with lines lw 3 lc rgb '#2ca02c'", {}};
+  PlotLayer truth{"ground truth", "with lines lw 3 lc rgb '#2ca02c'", {}, {}};
   for (const StampedPose& pose : ground_truth.poses())
-    truth.points << pose.map_from_robot.translation().x() << ' ' << pose.map_from_robot.translation().y() << '\n';
+    truth.addToPath(pose.map_from_robot.translation().x(), pose.map_from_robot.translation().y());
   return truth;
+}
+
+PlotLayer pathLayer(const std::string& name, const std::string& style, const std::vector<TimedEstimate>& estimates) {
+  PlotLayer path{name, style, {}, {}};
+  for (const TimedEstimate& estimate : estimates)
+    if (estimate.localized)
+      path.addToPath(estimate.robot_in_map.x, estimate.robot_in_map.y);
+    else
+      path.points << '\n';
+  return path;
+}
+
+std::string viewOf(const std::vector<PlotLayer>& layers) {
+  constexpr double least_margin = 1, relative_margin = 0.15;  // m
+  Eigen::AlignedBox2d area;
+  for (const PlotLayer& layer : layers) area.extend(layer.path_area);
+  if (area.isEmpty()) return "";
+  const double margin = std::max(least_margin, relative_margin * area.sizes().maxCoeff());
+  std::ostringstream view;
+  view << "set xrange [" << area.min().x() - margin << ':' << area.max().x() + margin << "]\nset yrange ["
+       << area.min().y() - margin << ':' << area.max().y() + margin << "]\n";
+  return view.str();
 }
 
 void writeData(std::ostream& script, const std::string& prefix, const std::vector<PlotLayer>& layers) {

@@ -3,11 +3,12 @@
 
 #include <mrpt/maps/CMultiMetricMap.h>
 
+#include <Eigen/Geometry>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "vmcl/geometry/trajectory.h"
+#include "vmcl/evaluation/trajectory_error.h"
 
 namespace vmcl {
 
@@ -16,7 +17,9 @@ struct PlotLayer {
   std::string name;
   std::string style;
   std::ostringstream points;
+  Eigen::AlignedBox2d path_area;  ///< of the points, if they are a path
 
+  void addToPath(double x, double y);
   bool empty() const { return points.str().find_first_not_of('\n') == std::string::npos; }
 };
 
@@ -24,6 +27,12 @@ struct PlotLayer {
 std::vector<PlotLayer> mapLayers(const mrpt::maps::CMultiMetricMap& maps);
 
 PlotLayer groundTruthLayer(const Trajectory& ground_truth);
+
+/// The poses while localized.
+PlotLayer pathLayer(const std::string& name, const std::string& style, const std::vector<TimedEstimate>& estimates);
+
+/// Shows the paths among the layers and what is around them, as the map may reach far.
+std::string viewOf(const std::vector<PlotLayer>& layers);
 
 /// The data blocks $PREFIX0, $PREFIX1, ... of the layers.
 void writeData(std::ostream& script, const std::string& prefix, const std::vector<PlotLayer>& layers);

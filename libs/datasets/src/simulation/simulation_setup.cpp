@@ -23,7 +23,8 @@ Session chooseSession(YamlMap yaml, const std::string& wanted, const Scene& scen
     all += (all.empty() ? "" : ", ") + name;
     if (name == chosen) session = std::move(read);
   }
-  if (!session) yaml.fail(chosen.empty() ? "NAME" : chosen, "is missing; there are: " + all);
+  if (!session && chosen.empty()) yaml.fail("NAME", "is to be chosen by --session from: " + all);
+  if (!session) yaml.fail(chosen, "is missing; there are: " + all);
   return *session;
 }
 

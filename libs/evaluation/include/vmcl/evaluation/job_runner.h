@@ -8,8 +8,8 @@
 
 namespace vmcl {
 
-/// Keeps two programs from filling one directory as if each were alone; ends with the object, or the process. Several
-/// that only add single runs may share it.
+/// Keeps two programs from filling one directory as if each were alone, by a file that the last holder removes; ends
+/// with the object, or the process. Several that only add single runs may share it.
 class DirectoryLock {
  public:
   enum class Kind { alone, shared };
@@ -21,7 +21,8 @@ class DirectoryLock {
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
  private:
-  int descriptor_;
+  std::filesystem::path file_;
+  int descriptor_ = -1;
 };
 
 /// Makes the runs of an experiment, each in a process of its own, and keeps each one's results in DIRECTORY/runs/ID:
@@ -50,7 +51,8 @@ class JobRunner {
   /// when nothing can be kept: a full disk, say.
   std::string run(const Job& job);
 
-  /// Makes runs side by side; tells of each that has ended, by number of those. When one throws, no more are begun.
+  /// Makes runs side by side, alone; tells of each that has ended, by number of those. When one throws, no more are
+  /// begun.
   void run(const std::vector<Job>& jobs, int workers, const std::function<void(std::size_t)>& on_end);
 
  private:
