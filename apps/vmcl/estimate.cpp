@@ -104,8 +104,14 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--seed", options->estimator.seed, "same seed, same answers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  verb->add_option("--sigma-px", options->estimator.likelihood.sigma_px, "standard deviation of a pixel coordinate")
-      ->capture_default_str();
+  EstimatorOptions& estimator = options->estimator;
+  estimator.estimate_sigma_px = true;
+  const auto setSigma = [&estimator](double sigma_px) {
+    estimator.likelihood.sigma_px = sigma_px;
+    estimator.estimate_sigma_px = false;
+  };
+  verb->add_option_function<double>("--sigma-px", setSigma,
+                                    "standard deviation of a pixel coordinate; estimated where it is not given");
   const auto inDegrees = [](double& radians) { return [&radians](double degrees) { radians = degrees * degree; }; };
   verb->add_option_function<double>("--sigma-tilt-deg", inDegrees(options->estimator.plane.sigma_tilt),
                                     "standard deviation of the robot's roll and pitch; 0: it stands upright")

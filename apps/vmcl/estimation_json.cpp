@@ -145,6 +145,7 @@ std::string formatEstimate(const std::string& id, const PoseEstimate& estimate, 
     json["inliers"] = first.inliers;
     json["solver"] = nameOf(first.solver);
     json["inlier_rate"] = estimate.inlier_rate;
+    json["sigma_px"] = estimate.sigma_px;
     json["off_plane_log_odds"] = estimate.off_plane_log_odds;
     Json& degenerate = json["degenerate"] = Json::array();
     for (const Degeneracy degeneracy : estimate.degeneracies) degenerate.push_back(nameOf(degeneracy));

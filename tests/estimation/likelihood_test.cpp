@@ -92,19 +92,20 @@ TEST(PoseLikelihood, RefusesBadOptionsAndProblems) {
   EXPECT_THROW(PoseLikelihood(broken, {}), std::invalid_argument);
 }
 
-TEST(Likelihood, WithAnotherShareOfInliersIsAsIfMadeWithIt) {
+TEST(Likelihood, WithOtherInliersAndNoiseIsAsIfMadeWithThem) {
   Random random(96);
   for (const bool level_outliers : {false, true}) {
     const Scene scene = randomScene(random, {.cameras = 2, .matches = 80, .outlier_rate = 0.5, .noise_px = 2});
-    const PoseLikelihood other = PoseLikelihood(scene.problem, {.level_outliers = level_outliers}).withInlierPrior(0.7);
-    const PoseLikelihood fresh(scene.problem, {.inlier_prior = 0.7, .level_outliers = level_outliers});
+    const PoseLikelihood other = PoseLikelihood(scene.problem, {.level_outliers = level_outliers}).with(0.7, 3);
+    const PoseLikelihood fresh(scene.problem, {.sigma_px = 3, .inlier_prior = 0.7, .level_outliers = level_outliers});
     const std::vector<PlanarTransform> poses{PlanarTransform(scene.map_from_robot), {1, 0, 2, 3}};
     std::vector<double> other_values(poses.size()), fresh_values(poses.size());
     other.evaluate(poses, other_values);
     fresh.evaluate(poses, fresh_values);
     EXPECT_EQ(other_values, fresh_values);
     EXPECT_EQ(other(poses[0]), fresh(poses[0]));
-    EXPECT_THROW(fresh.withInlierPrior(1), std::invalid_argument);
+    EXPECT_THROW(fresh.with(1, 2), std::invalid_argument);
+    EXPECT_THROW(fresh.with(0.5, 0), std::invalid_argument);
   }
 }
 

@@ -121,6 +121,27 @@ std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vect
   return climbedFrom(climber, met, more_steps, hopeless);
 }
 
+/// The likelihood with the share of inliers and, unless it is known, the pixel noise that show at the peak above the
+/// best pose. To judge and optimize all poses with.
+PoseLikelihood asShownBy(const PlanarTransform& best, const PoseLikelihood& first_guess,
+                         const EstimatorOptions& options) {
+  constexpr int max_rounds = 6;
+  constexpr double settled = 0.1;  // change of the noise, relative
+  const LikelihoodOptions& prior = options.likelihood;
+  PoseLikelihood likelihood = first_guess.with(prior.inlier_prior, prior.sigma_px);
+  double sigma_px = prior.sigma_px, change = 1;
+  for (int round = 0; round < max_rounds && change > settled; ++round) {
+    const PoseRefiner refiner(likelihood, options.plane);
+    const RefinedPose peak = refiner.refine(best);
+    const double inlier_rate = refiner.inlierRate(peak, prior.inlier_prior);
+    const double last = sigma_px;
+    if (options.estimate_sigma_px) sigma_px = refiner.sigmaPx(peak, inlier_rate, prior.sigma_px);
+    change = std::abs(std::log(sigma_px / last));
+    likelihood = first_guess.with(inlier_rate, sigma_px);
+  }
+  return likelihood;
+}
+
 double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
   const RefinedPose off =
       PoseRefiner(likelihood, {.sigma_tilt = 0.1, .sigma_height = 0.2}).refine(PlanarTransform(refined.map_from_robot));
@@ -176,9 +197,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
 
   const PoseRefiner climber(first_guess, {});
   const std::vector<Hypothesis> summits = summitsAbove(climber, *starts, hopelessBelow(options.plane));
-  // Judged and optimized with the share of inliers that the best pose shows.
-  const double inlier_rate = climber.inlierRate(PoseRefiner(first_guess, options.plane).refine(summits.front().pose));
-  const PoseLikelihood likelihood = first_guess.withInlierPrior(inlier_rate);
+  const PoseLikelihood likelihood = asShownBy(summits.front().pose, first_guess, options);
   const PoseRefiner refiner(likelihood, options.plane);
   std::vector<RefinedHypothesis> peaks = refined(problem, refiner, summits);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
@@ -189,9 +208,10 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
     estimate.modes.push_back({pose.map_from_robot, pose.covariance, pose.log_likelihood, logEvidence(pose), 0,
                               refiner.inliers(pose), solver});
   estimate.modes = mergeModes(std::move(estimate.modes), options.max_modes);
-  estimate.inlier_rate = inlier_rate;
+  estimate.inlier_rate = likelihood.options().inlier_prior;
+  estimate.sigma_px = likelihood.options().sigma_px;
   const PoseMode& best = estimate.modes.front();
-  estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, options.likelihood.sigma_px);
+  estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, estimate.sigma_px);
   const auto heaviest = std::ranges::find(peaks, best.log_likelihood,
                                           [](const RefinedHypothesis& peak) { return peak.pose.log_likelihood; });
   estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, heaviest->pose);

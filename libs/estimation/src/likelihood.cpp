@@ -22,12 +22,11 @@ PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodO
   weigh();
 }
 
-PoseLikelihood::Prepared::Prepared(const Prepared& other, double inlier_prior)
-    : options(other.options),
+PoseLikelihood::Prepared::Prepared(const Prepared& other, const LikelihoodOptions& likelihood_options)
+    : options(likelihood_options),
       inverse_depth_prior(other.inverse_depth_prior),
       outlier_density(other.outlier_density),
       matches(other.matches) {
-  options.inlier_prior = inlier_prior;
   weigh();
 }
 
@@ -42,12 +41,13 @@ PoseLikelihood::PoseLikelihood(const PoseProblem& problem, const LikelihoodOptio
   prepared_ = std::make_unique<Prepared>(problem, options);
 }
 
-PoseLikelihood PoseLikelihood::withInlierPrior(double inlier_prior) const {
+PoseLikelihood PoseLikelihood::with(double inlier_prior, double sigma_px) const {
   LikelihoodOptions options = prepared_->options;
   options.inlier_prior = inlier_prior;
+  options.sigma_px = sigma_px;
   options.check();
   PoseLikelihood other;
-  other.prepared_ = std::make_unique<Prepared>(*prepared_, inlier_prior);
+  other.prepared_ = std::make_unique<Prepared>(*prepared_, options);
   return other;
 }
 
@@ -55,6 +55,8 @@ PoseLikelihood::PoseLikelihood() = default;
 PoseLikelihood::~PoseLikelihood() = default;
 PoseLikelihood::PoseLikelihood(PoseLikelihood&&) noexcept = default;
 PoseLikelihood& PoseLikelihood::operator=(PoseLikelihood&&) noexcept = default;
+
+const LikelihoodOptions& PoseLikelihood::options() const { return prepared_->options; }
 
 int PoseLikelihood::matchCount() const { return prepared_->matches.match_count; }
 

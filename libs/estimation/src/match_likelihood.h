@@ -61,6 +61,8 @@ struct MatchResidual {
   Eigen::Vector3d arm;
   double scale = 1;
   double likelihood_ratio = 0;  ///< p / u: density of the error over that of an outlier anywhere in the image
+  double noise_fit = 0;         ///< the error's share in an estimate of the pixel noise's variance, over the variance
+  double noise_freedom = 0;     ///< expected of noise_fit
 
   /// From pixel_error and its covariance S.
   void setLikelihood(const Eigen::Matrix2d& S, double image_area, double cutoff) {
@@ -105,6 +107,8 @@ class PointView {
     S.diagonal().array() += sigma2_;
     result.setLikelihood(S, area_, cutoff_);
     result.likelihood_ratio *= nearFade(h.z() - min_depth);
+    result.noise_fit = sigma2_ * (result.information * result.pixel_error).squaredNorm();
+    result.noise_freedom = sigma2_ * result.information.trace();
   }
 
  private:
@@ -170,6 +174,8 @@ class RayView {
     const double anywhere = (1 - described_share) * anywhereDensity(rho_variance, by_rho.squaredNorm());
     result.likelihood_ratio *= nearFade(h.z() - rho * min_depth) * (described + anywhere);
     if (!with_derivatives) return;
+    result.noise_fit = result.pixel_error.dot(result.information * result.pixel_error);
+    result.noise_freedom = 1;
     weigh(by_rho, rho, rho_variance, described / (described + anywhere), result);
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_z;
     result.arm = map_from_reference_pixel_ * reference_pixel.homogeneous() + rho * reference_from_robot_;

@@ -185,18 +185,31 @@ void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose)
   pose.log_evidence = pose.log_likelihood + logPrior(pose) + freedom * std::log(sqrt_2pi) + 0.5 * log_determinant;
 }
 
-double PoseRefiner::inlierRate(const RefinedPose& pose) const {
+double PoseRefiner::inlierRate(const RefinedPose& pose, double prior_rate) const {
   constexpr double prior_matches = 15;
   const auto& p = *likelihood_.prepared_;
   std::vector<double> ratios;
   p.visit(pose.rigid(), [&](int, const MatchResidual& residual) { ratios.push_back(residual.likelihood_ratio); });
-  double rate = p.options.inlier_prior;
+  double rate = prior_rate;
   for (int i = 0; i < 20; ++i) {
-    double inliers = prior_matches * p.options.inlier_prior;
+    double inliers = prior_matches * prior_rate;
     for (const double ratio : ratios) inliers += responsibility(ratio, rate);
     rate = inliers / (prior_matches + p.matches.match_count);
   }
   return rate;
+}
+
+double PoseRefiner::sigmaPx(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const {
+  constexpr double prior_coordinates = 4, pose_coordinates = 3;  // the latter fit because the pose was made to
+  const auto& p = *likelihood_.prepared_;
+  double fit = prior_coordinates * std::pow(prior_sigma_px / p.options.sigma_px, 2), freedom = 0;
+  p.visit(pose.rigid(), [&](int, const MatchResidual& residual) {
+    const double weight = responsibility(residual.likelihood_ratio, inlier_rate);
+    fit += weight * residual.noise_fit;
+    freedom += weight * residual.noise_freedom;
+  });
+  freedom = prior_coordinates + std::max(0.0, freedom - pose_coordinates);
+  return p.options.sigma_px * std::sqrt(fit / freedom);
 }
 
 std::vector<int> PoseRefiner::inliers(const RefinedPose& pose) const {

@@ -16,7 +16,7 @@ namespace vmcl {
 /// What every evaluation of the likelihood needs, laid out for its loops.
 struct PoseLikelihood::Prepared {
   Prepared(const PoseProblem& problem, const LikelihoodOptions& options);
-  Prepared(const Prepared& other, double inlier_prior);
+  Prepared(const Prepared& other, const LikelihoodOptions& options);
 
   LikelihoodOptions options;
   InverseDepthPrior inverse_depth_prior;

@@ -19,9 +19,10 @@ struct EstimatorOptions {
   int iterations = 20000;  ///< most random samples drawn, at least 1; easy problems need few
   uint64_t seed = 1;       ///< same seed, same answer
   LikelihoodOptions likelihood;
-  int refined = 32;   ///< best hypotheses that are optimized, at least 1
-  int max_modes = 5;  ///< modes reported, at least 1
-  SoftPlane plane;    ///< unmodelled tilt and height of the robot
+  bool estimate_sigma_px = false;  ///< whether the pixel noise is but a first guess, to be estimated from the inliers
+  int refined = 32;                ///< best hypotheses that are optimized, at least 1
+  int max_modes = 5;               ///< modes reported, at least 1
+  SoftPlane plane;                 ///< unmodelled tilt and height of the robot
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
@@ -47,6 +48,7 @@ struct PoseEstimate {
   std::string reason;
   std::vector<Degeneracy> degeneracies;  ///< of the first mode's inliers
   double inlier_rate = 0;                ///< share of inliers that the modes were judged with
+  double sigma_px = 0;                   ///< and standard deviation of a pixel coordinate
   /// Log of how much better the first mode explains the matches with the robot off its plane (0.1 rad, 0.2 m) than as
   /// SoftPlane allows: over about 5, the data contradict planar motion.
   double off_plane_log_odds = 0;

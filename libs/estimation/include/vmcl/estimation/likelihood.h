@@ -39,8 +39,8 @@ class PoseLikelihood {
   PoseLikelihood(PoseLikelihood&&) noexcept;
   PoseLikelihood& operator=(PoseLikelihood&&) noexcept;
 
-  /// The same with another share of inliers, at a part of the cost.
-  PoseLikelihood withInlierPrior(double inlier_prior) const;
+  /// The same with another share of inliers and pixel noise, at a part of the cost.
+  PoseLikelihood with(double inlier_prior, double sigma_px) const;
 
   /// L at one pose of the robot. Finite; a pose that is not explains nothing. Thread safe.
   double operator()(const PlanarTransform& map_from_robot) const;
@@ -54,6 +54,7 @@ class PoseLikelihood {
   void evaluate(std::span<const PlanarTransform> map_from_robot, std::span<double> log_likelihoods) const;
 
   int matchCount() const;
+  const LikelihoodOptions& options() const;
 
  private:
   friend class PoseRefiner;

@@ -69,8 +69,11 @@ class PoseRefiner {
   /// sizes differ.
   void linearize(std::span<const PlanarTransform> poses, std::span<PlanarSlope> slopes) const;
 
-  /// Share of inliers among the matches as this pose shows it, weighed with the prior's as if of 15 more matches.
-  double inlierRate(const RefinedPose& pose) const;
+  /// As this pose shows them: the share of inliers among the matches, weighed with the prior's as if of 15 more
+  /// matches; and the standard deviation of a pixel coordinate, one step of Fisher scoring from the likelihood's on,
+  /// weighed with the prior's as if of 4 more coordinates.
+  double inlierRate(const RefinedPose& pose, double prior_rate) const;
+  double sigmaPx(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const;
 
   /// Matches more likely inlier than outlier, by increasing index.
   std::vector<int> inliers(const RefinedPose& pose) const;
