@@ -122,24 +122,24 @@ std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vect
 }
 
 /// The likelihood with the share of inliers and, unless it is known, the pixel noise that show at the peak above the
-/// best pose. To judge and optimize all poses with.
-PoseLikelihood asShownBy(const PlanarTransform& best, const PoseLikelihood& first_guess,
-                         const EstimatorOptions& options) {
+/// best pose, which is moved there. To judge and optimize all poses with.
+PoseLikelihood asShownBy(PlanarTransform& best, const PoseLikelihood& first_guess, const EstimatorOptions& options) {
   constexpr int max_rounds = 6;
   constexpr double settled = 0.1;  // change of the noise, relative
   const LikelihoodOptions& prior = options.likelihood;
-  PoseLikelihood likelihood = first_guess.with(prior.inlier_prior, prior.sigma_px);
+  std::optional<PoseLikelihood> likelihood;
   double sigma_px = prior.sigma_px, change = 1;
   for (int round = 0; round < max_rounds && change > settled; ++round) {
-    const PoseRefiner refiner(likelihood, options.plane);
+    const PoseRefiner refiner(likelihood ? *likelihood : first_guess, options.plane);
     const RefinedPose peak = refiner.refine(best);
+    best = PlanarTransform(peak.map_from_robot);
     const double inlier_rate = refiner.inlierRate(peak, prior.inlier_prior);
     const double last = sigma_px;
     if (options.estimate_sigma_px) sigma_px = refiner.sigmaPx(peak, inlier_rate, prior.sigma_px);
     change = std::abs(std::log(sigma_px / last));
     likelihood = first_guess.with(inlier_rate, sigma_px);
   }
-  return likelihood;
+  return *std::move(likelihood);
 }
 
 double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
@@ -196,7 +196,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (starts->empty()) return noPose(NoPose::no_sample);
 
   const PoseRefiner climber(first_guess, {});
-  const std::vector<Hypothesis> summits = summitsAbove(climber, *starts, hopelessBelow(options.plane));
+  std::vector<Hypothesis> summits = summitsAbove(climber, *starts, hopelessBelow(options.plane));
   const PoseLikelihood likelihood = asShownBy(summits.front().pose, first_guess, options);
   const PoseRefiner refiner(likelihood, options.plane);
   std::vector<RefinedHypothesis> peaks = refined(problem, refiner, summits);

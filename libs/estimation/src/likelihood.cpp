@@ -19,7 +19,7 @@ void LikelihoodOptions::check() const {
 PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodOptions& likelihood_options)
     : options(likelihood_options), inverse_depth_prior(inverseDepthPrior(problem)), matches(problem) {
   if (options.level_outliers) outlier_density.emplace(problem);
-  weigh();
+  setOutlierDensity();
 }
 
 PoseLikelihood::Prepared::Prepared(const Prepared& other, const LikelihoodOptions& likelihood_options)
@@ -27,12 +27,16 @@ PoseLikelihood::Prepared::Prepared(const Prepared& other, const LikelihoodOption
       inverse_depth_prior(other.inverse_depth_prior),
       outlier_density(other.outlier_density),
       matches(other.matches) {
-  weigh();
+  setOutlierDensity();
 }
 
-void PoseLikelihood::Prepared::weigh() {
+void PoseLikelihood::Prepared::setOutlierDensity() {
   if (outlier_density) matches.setOutlierDensity(outlier_density->at(options.inlier_prior));
-  terms = likelihoodTerms(matches, options, inverse_depth_prior);
+}
+
+const std::optional<LikelihoodTerms>& PoseLikelihood::Prepared::terms() const {
+  std::call_once(terms_asked_for_, [&] { terms_ = likelihoodTerms(matches, options, inverse_depth_prior); });
+  return terms_;
 }
 
 PoseLikelihood::PoseLikelihood(const PoseProblem& problem, const LikelihoodOptions& options) {
@@ -87,7 +91,7 @@ void PoseLikelihood::evaluate(std::span<const PlanarTransform> map_from_robot,
   if (map_from_robot.size() != log_likelihoods.size())
     throw std::invalid_argument("PoseLikelihood::evaluate: " + std::to_string(map_from_robot.size()) + " poses but " +
                                 std::to_string(log_likelihoods.size()) + " results");
-  const auto& terms = prepared_->terms;
+  const auto& terms = prepared_->terms();
   if (terms) evaluateTerms(*terms, map_from_robot, log_likelihoods);
   for (std::size_t i = 0; i < map_from_robot.size(); ++i)
     if (!terms || !isWithinReach(*terms, map_from_robot[i])) log_likelihoods[i] = (*this)(map_from_robot[i]);

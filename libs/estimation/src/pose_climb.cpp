@@ -60,7 +60,7 @@ void PoseRefiner::linearize(std::span<const PlanarTransform> poses, std::span<Pl
   if (poses.size() != slopes.size())
     throw std::invalid_argument("PoseRefiner::linearize: " + std::to_string(poses.size()) + " poses but " +
                                 std::to_string(slopes.size()) + " results");
-  const auto& terms = likelihood_.prepared_->terms;
+  const auto& terms = likelihood_.prepared_->terms();
   if (terms) linearizeTerms(*terms, poses, slopes);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (terms && isWithinReach(*terms, poses[i])) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct PoseLikelihood::Prepared {
   InverseDepthPrior inverse_depth_prior;
   std::optional<OutlierDensity> outlier_density;  ///< uniform if there is none
   MatchGroups matches;
-  std::optional<LikelihoodTerms> terms;  ///< for many planar poses at once
+
+  /// For many planar poses at once; made when first asked for.
+  const std::optional<LikelihoodTerms>& terms() const;
 
   /// Evaluates every match at one pose: on_match(index, residual) for those that the pose explains at all. Without
   /// derivatives, the residual holds only the likelihood ratio.
@@ -50,7 +53,10 @@ struct PoseLikelihood::Prepared {
   }
 
  private:
-  void weigh();
+  void setOutlierDensity();
+
+  mutable std::once_flag terms_asked_for_;
+  mutable std::optional<LikelihoodTerms> terms_;
 };
 
 }  // namespace vmcl
