@@ -18,7 +18,8 @@ struct BenchOptions {
   int trials = 30;
   uint64_t seed = 1;
   int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  std::vector<Figure> figures{Figure::accuracy, Figure::success, Figure::cost_of_matches, Figure::cost_of_cameras};
+  std::vector<Figure> figures{Figure::accuracy, Figure::success, Figure::tilt, Figure::cost_of_matches,
+                              Figure::cost_of_cameras};
 };
 
 bool isAboutTime(const StudyCell& cell) {
@@ -45,7 +46,9 @@ CellSummary runCell(const StudyCell& cell, const BenchOptions& options) {
 /// What a reader must know to compare fairly.
 void printMethods(std::ostream& out) {
   for (const PoseMethod& method : poseMethods()) out << method.name << ": " << method.description << '\n';
-  out << bound_name << ": the likelihood optimized from the true pose\n"
+  const PoseMethod soft = softPlaneMethod();
+  out << soft.name << ": " << soft.description << '\n'
+      << bound_name << ": the likelihood optimized from the true pose\n"
       << cramer_rao_name << ": what the best unbiased estimator that knew the inliers could reach\n";
   out << "Matches without depth help vmcl and 1P1DP alone: the other methods have no use for them. AP3P, EPnP, MAGSAC "
          "and\n"
@@ -77,6 +80,7 @@ void addBenchVerb(CLI::App& app, int& exit_code) {
   static const std::map<std::string, std::vector<Figure>> figures{{"all", options->figures},
                                                                   {"accuracy", {Figure::accuracy}},
                                                                   {"success", {Figure::success}},
+                                                                  {"tilt", {Figure::tilt}},
                                                                   {"cost-matches", {Figure::cost_of_matches}},
                                                                   {"cost-cameras", {Figure::cost_of_cameras}}};
   verb->add_option("-o,--output", options->output, "directory for tables and pictures")->required();

@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "vmcl/estimation/pose_refiner.h"
+
 namespace vmcl {
 namespace {
 
@@ -46,6 +48,21 @@ TEST(SimulatedWorld, HasTheRatesThatAreAskedFor) {
       EXPECT_EQ(inliers, 12);
       EXPECT_EQ(deep, 12);
     }
+  }
+}
+
+TEST(SimulatedWorld, TheWholeRobotTilts) {
+  Random random(9);
+  for (const int cameras : {1, 3}) {
+    WorldSettings settings{World::paper, cameras, 50, 0, 1, 0};
+    settings.tilt = 0.1;
+    const SimulatedProblem simulated = simulateProblem(settings, random);
+    const PoseLikelihood likelihood(simulated.problem, {.sigma_px = 20});
+    const RefinedPose pose =
+        PoseRefiner(likelihood, {.sigma_tilt = 1}).refine(PlanarTransform(simulated.map_from_robot), 50);
+    EXPECT_NEAR(std::hypot(pose.roll, pose.pitch), settings.tilt, 0.005);
+    EXPECT_NEAR(pose.map_from_robot.x, simulated.map_from_robot.x, 0.05);
+    EXPECT_NEAR(pose.map_from_robot.y, simulated.map_from_robot.y, 0.05);
   }
 }
 
@@ -198,6 +215,7 @@ TEST(SimulatedWorld, RefusesBadSettings) {
   refuses("outlier_rate", [](WorldSettings& s) { s.outlier_rate = 1.1; });
   refuses("depth_rate", [](WorldSettings& s) { s.depth_rate = nan; });
   refuses("noise_px", [](WorldSettings& s) { s.noise_px = -1; });
+  refuses("tilt", [](WorldSettings& s) { s.tilt = 0.3; });
   refuses("noise_px", [](WorldSettings& s) { s.noise_px = nan; });
 }
 

@@ -14,7 +14,8 @@ PoseMethod fixedAnswer(const std::string& name, std::vector<PlanarPose> answer) 
 }
 
 TEST(Study, CellsAreNumberedApartAndKeepTheirNumbers) {
-  const auto all = studyCells({Figure::accuracy, Figure::success, Figure::cost_of_matches, Figure::cost_of_cameras});
+  const auto all =
+      studyCells({Figure::accuracy, Figure::success, Figure::tilt, Figure::cost_of_matches, Figure::cost_of_cameras});
   std::set<int> numbers;
   for (const StudyCell& cell : all) numbers.insert(cell.number);
   EXPECT_EQ(numbers.size(), all.size());

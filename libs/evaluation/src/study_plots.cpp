@@ -18,12 +18,12 @@ std::string styleOf(const std::string& method) {
     const char* style;
   };
   static constexpr Style styles[] = {
-      {"vmcl", "lc rgb '#0072B2' pt 7 lw 2.5"},   {"1P1DP", "lc rgb '#D55E00' pt 5 lw 1.5"},
-      {"2DP", "lc rgb '#E69F00' pt 9 lw 1.5"},    {"AP3P", "lc rgb '#009E73' pt 11 lw 1.5"},
-      {"EPnP", "lc rgb '#CC79A7' pt 13 lw 1.5"},  {"MAGSAC", "lc rgb '#56B4E9' pt 4 lw 1.5"},
-      {"P3P", "lc rgb '#808080' pt 6 lw 1.5"},    {"GP3P", "lc rgb '#7A4F1E' pt 8 lw 1.5"},
-      {"UPnP", "lc rgb '#B8A000' pt 10 lw 1.5"},  {bound_name, "lc rgb '#000000' pt 2 lw 1.5 dt 3"},
-      {cramer_rao_name, "lc rgb '#000000' lw 2"},
+      {"vmcl", "lc rgb '#0072B2' pt 7 lw 2.5"},          {"vmcl soft", "lc rgb '#0072B2' pt 12 lw 2.5 dt 2"},
+      {"1P1DP", "lc rgb '#D55E00' pt 5 lw 1.5"},         {"2DP", "lc rgb '#E69F00' pt 9 lw 1.5"},
+      {"AP3P", "lc rgb '#009E73' pt 11 lw 1.5"},         {"EPnP", "lc rgb '#CC79A7' pt 13 lw 1.5"},
+      {"MAGSAC", "lc rgb '#56B4E9' pt 4 lw 1.5"},        {"P3P", "lc rgb '#808080' pt 6 lw 1.5"},
+      {"GP3P", "lc rgb '#7A4F1E' pt 8 lw 1.5"},          {"UPnP", "lc rgb '#B8A000' pt 10 lw 1.5"},
+      {bound_name, "lc rgb '#000000' pt 2 lw 1.5 dt 3"}, {cramer_rao_name, "lc rgb '#000000' lw 2"},
   };
   for (const Style& style : styles)
     if (style.method == method) return style.style;
@@ -114,6 +114,25 @@ void drawAccuracy(const std::filesystem::path& directory, const StudyPicture& ce
   drawSvg(directory / ("accuracy_" + fileSuffix(world) + ".svg"), "1300,560", commands.str());
 }
 
+void drawTilt(const std::filesystem::path& directory, const StudyPicture& cells) {
+  const std::string world(nameOf(cells.front()->cell.world.world));
+  std::vector<Line> lines = linesOf(
+      cells, [](const WorldSettings& w) { return w.tilt / degree; }, 0.006, 1,
+      [](double x, const MethodSummary& row) {
+        const Interval interval = wilsonInterval(row.successes, row.trials);
+        return PlotPoint{x, double(row.successes) / row.trials, interval.low, interval.high};
+      });
+  std::erase_if(lines, [](const Line& line) { return line.method == cramer_rao_name; });
+  std::ostringstream commands;
+  commands << "set key outside right top vertical spacing 1.3\n";
+  plotLines(
+      commands, "tilt",
+      {"Success rate, 95 % Wilson intervals (world \"" + world + "\", 30 % outliers, half with depth)",
+       "tilt of the robot [deg]", "success rate", "unset logscale y\nset yrange [0:1.02]\nset xrange [-0.05:1.05]\n"},
+      lines);
+  drawSvg(directory / ("tilt_" + world + ".svg"), "900,600", commands.str());
+}
+
 void drawCost(const std::filesystem::path& svg, const StudyPicture& cells, const Axes& axes,
               const std::function<double(const WorldSettings&)>& place, double shift, double factor) {
   std::ostringstream commands;
@@ -131,6 +150,7 @@ void drawCost(const std::filesystem::path& svg, const StudyPicture& cells, const
 void drawStudy(const std::filesystem::path& directory, const StudyRun& run) {
   for (const StudyPicture& picture : picturesOf(run, Figure::accuracy)) drawAccuracy(directory, picture);
   for (const StudyPicture& picture : picturesOf(run, Figure::success)) drawSuccessMaps(directory, picture);
+  for (const StudyPicture& picture : picturesOf(run, Figure::tilt)) drawTilt(directory, picture);
   const char* const time = "processor time of an estimate [ms]";
   for (const StudyPicture& picture : picturesOf(run, Figure::cost_of_matches))
     drawCost(

@@ -37,13 +37,11 @@ void printAccuracy(std::ostream& out, const StudyPicture& cells) {
              [&](const MethodSummary& row) { return error(row, row.angle.rms / degree); });
 }
 
-void printSuccess(std::ostream& out, const StudyPicture& cells) {
+template <class Place>
+void printSuccess(std::ostream& out, const std::string& place_title, const StudyPicture& cells, Place&& place) {
   const WorldSettings& world = cells.front()->cell.world;
-  const auto place = [](const WorldSettings& w) {
-    return withDigits(w.outlier_rate, 1) + ", " + withDigits(w.depth_rate, 1);
-  };
-  printTable(out, "Success rate, world \"" + std::string(nameOf(world.world)) + "\", " + camerasOf(world),
-             "outliers, depth", cells, place, [](const MethodSummary& row) {
+  printTable(out, "Success rate, world \"" + std::string(nameOf(world.world)) + "\", " + camerasOf(world), place_title,
+             cells, place, [](const MethodSummary& row) {
                return row.method == cramer_rao_name ? "-" : withDigits(double(row.successes) / row.trials, 3);
              });
 }
@@ -52,7 +50,13 @@ void printSuccess(std::ostream& out, const StudyPicture& cells) {
 
 void printStudy(std::ostream& out, const StudyRun& run) {
   for (const StudyPicture& picture : picturesOf(run, Figure::accuracy)) printAccuracy(out, picture);
-  for (const StudyPicture& picture : picturesOf(run, Figure::success)) printSuccess(out, picture);
+  for (const StudyPicture& picture : picturesOf(run, Figure::success))
+    printSuccess(out, "outliers, depth", picture, [](const WorldSettings& world) {
+      return withDigits(world.outlier_rate, 1) + ", " + withDigits(world.depth_rate, 1);
+    });
+  for (const StudyPicture& picture : picturesOf(run, Figure::tilt))
+    printSuccess(out, "tilt [deg]", picture,
+                 [](const WorldSettings& world) { return withDigits(world.tilt / degree, 2); });
 }
 
 }  // namespace vmcl

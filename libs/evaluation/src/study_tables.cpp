@@ -15,13 +15,14 @@ using Json = nlohmann::ordered_json;
 
 bool isCramerRao(const MethodSummary& row) { return row.method == cramer_rao_name; }
 
-const char* const cell_columns = "figure,world,cameras,matches_per_camera,outlier_rate,depth_rate,noise_px,method";
+const char* const cell_columns =
+    "figure,world,cameras,matches_per_camera,outlier_rate,depth_rate,noise_px,tilt_deg,method";
 
 std::string cellFields(const StudyCell& cell, const MethodSummary& row) {
   std::ostringstream fields;
   const WorldSettings& w = cell.world;
   fields << nameOf(cell.figure) << ',' << nameOf(w.world) << ',' << w.cameras << ',' << w.matches_per_camera << ','
-         << w.outlier_rate << ',' << w.depth_rate << ',' << w.noise_px << ',' << row.method;
+         << w.outlier_rate << ',' << w.depth_rate << ',' << w.noise_px << ',' << w.tilt / degree << ',' << row.method;
   return fields.str();
 }
 

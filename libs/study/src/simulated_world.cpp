@@ -54,15 +54,26 @@ class Generator {
     return {distance * std::cos(bearing), -distance * std::sin(bearing), -random_.uniform(0, std::numbers::pi / 2)};
   }
 
-  /// What one camera sees, in random order; nothing where the two views share too little.
-  std::optional<std::vector<Sighting>> sightings(const PlanarPose& query_from_reference) {
+  /// Turns what the robot sees as its tilt does.
+  Eigen::Matrix3d tilt() {
+    if (settings_.tilt == 0) return Eigen::Matrix3d::Identity();
+    const double axis = random_.uniform(-std::numbers::pi, std::numbers::pi);
+    return Eigen::AngleAxisd(settings_.tilt, Eigen::Vector3d(std::cos(axis), std::sin(axis), 0)).toRotationMatrix();
+  }
+
+  /// What one camera sees, in random order; nothing where the two views share too little. For inliers
+  /// `query_from_upright` says where the camera is, over where it would be if the robot stood upright.
+  std::optional<std::vector<Sighting>> sightings(const PlanarPose& query_from_reference,
+                                                 const Rigid3& query_from_upright) {
     constexpr int max_tries = 10000;
     const int count = settings_.matches_per_camera;
     const int inliers = count - static_cast<int>(std::lround(count * settings_.outlier_rate));
     std::vector<Sighting> result;
     for (int tries = 0; static_cast<int>(result.size()) < count; ++tries) {
       if (tries == max_tries) return std::nullopt;
-      const auto sighting = look(query_from_reference, static_cast<int>(result.size()) < inliers);
+      const bool inlier = static_cast<int>(result.size()) < inliers;
+      const auto sighting =
+          look(inlier ? std::optional(query_from_upright * toRigid3(query_from_reference)) : std::nullopt);
       if (!sighting) continue;
       result.push_back(*sighting);
       tries = 0;
@@ -83,20 +94,21 @@ class Generator {
   }
 
  private:
-  std::optional<Sighting> look(const PlanarPose& query_from_reference, bool inlier) {
+  /// An outlier is seen from anywhere.
+  std::optional<Sighting> look(const std::optional<Rigid3>& query_from_reference) {
     const Eigen::Vector3d point = randomPoint();
     const auto reference_pixel = seen(point);
     if (!reference_pixel) return std::nullopt;
     std::optional<Eigen::Vector2d> query_pixel;
-    if (!inlier && settings_.world == World::uniform) {
+    if (!query_from_reference && settings_.world == World::uniform) {
       const double u = random_.uniform(0, camera.width);
       query_pixel = Eigen::Vector2d(u, random_.uniform(0, camera.height));
     } else {
-      const Rigid3 planar = toRigid3(inlier ? query_from_reference : queryFromReference());
+      const Rigid3 planar = query_from_reference ? *query_from_reference : toRigid3(queryFromReference());
       query_pixel = seen(planar_from_optical.transpose() * (planar * (planar_from_optical * point)));
     }
     if (!query_pixel) return std::nullopt;
-    return Sighting{*query_pixel, *reference_pixel, point, inlier};
+    return Sighting{*query_pixel, *reference_pixel, point, query_from_reference.has_value()};
   }
 
   Eigen::Vector3d randomPoint() {
@@ -127,12 +139,14 @@ struct SimulatedMatch {
 };
 
 /// Adds the k-th camera of the robot, its reference and their matches; false where the views share too little.
-bool addCamera(int k, const WorldSettings& settings, Generator& generator, SimulatedProblem& simulated,
-               std::vector<SimulatedMatch>& matches) {
+bool addCamera(int k, const WorldSettings& settings, const Eigen::Matrix3d& tilt, Generator& generator,
+               SimulatedProblem& simulated, std::vector<SimulatedMatch>& matches) {
   const PlanarPose query_from_reference = generator.queryFromReference();
-  const auto sightings = generator.sightings(query_from_reference);
-  if (!sightings) return false;
   const PlanarPose mount = mountOf(k, settings.cameras);
+  const Rigid3 robot_from_camera = toRigid3(mount);
+  const auto sightings =
+      generator.sightings(query_from_reference, robot_from_camera.inverse() * Rigid3(tilt) * robot_from_camera);
+  if (!sightings) return false;
   const Rigid3 map_from_reference = cameraPose(simulated.map_from_robot * mount * query_from_reference);
   simulated.problem.query_cameras.push_back({camera, cameraPose(mount)});
   simulated.problem.reference_cameras.push_back({camera, map_from_reference});
@@ -174,6 +188,7 @@ void WorldSettings::check() const {
   require(matches_per_camera >= 2, "matches_per_camera", matches_per_camera);
   require(outlier_rate >= 0 && outlier_rate <= 1, "outlier_rate", outlier_rate);
   require(depth_rate >= 0 && depth_rate <= 1, "depth_rate", depth_rate);
+  require(tilt >= 0 && tilt <= 0.2, "tilt", tilt);
   require(noise_px >= 0 && noise_px <= 100, "noise_px", noise_px);
 }
 
@@ -188,9 +203,10 @@ SimulatedProblem simulateProblem(const WorldSettings& settings, Random& random) 
     simulated.map_from_robot.x = generator.uniform(-5, 5);
     simulated.map_from_robot.y = generator.uniform(-5, 5);
     simulated.map_from_robot.phi = generator.uniform(-std::numbers::pi, std::numbers::pi);
+    const Eigen::Matrix3d tilt = generator.tilt();
     bool complete = true;
     for (int k = 0; k < settings.cameras && complete; ++k)
-      complete = addCamera(k, settings, generator, simulated, matches);
+      complete = addCamera(k, settings, tilt, generator, simulated, matches);
     if (!complete) continue;
     generator.shuffle(matches);
     for (SimulatedMatch& entry : matches) {

@@ -34,6 +34,9 @@ std::vector<StudyCell> allCells() {
   for (const int matches : {50, 100, 200, 500, 1000, 2000, 5000, 10000})
     add(Figure::cost_of_matches, {World::paper, 1, matches, 0.5, 0.5, 2});
   for (const int cameras : {1, 2, 3, 4, 5, 6}) add(Figure::cost_of_cameras, {World::paper, cameras, 50, 0.5, 0.5, 2});
+  for (const World world : {World::paper, World::authors})
+    for (const double tilt_deg : {0.0, 0.25, 0.5, 0.75, 1.0})
+      add(Figure::tilt, {world, 1, 50, 0.3, 0.5, 2, tilt_deg * degree});
   return cells;
 }
 
@@ -89,6 +92,8 @@ std::string_view nameOf(Figure figure) {
       return "accuracy";
     case Figure::success:
       return "success";
+    case Figure::tilt:
+      return "tilt";
     case Figure::cost_of_matches:
       return "cost-matches";
     case Figure::cost_of_cameras:
@@ -109,6 +114,7 @@ std::vector<PoseMethod> methodsOf(const StudyCell& cell) {
   std::vector<PoseMethod> methods = poseMethods();
   if (cell.world.cameras > 1 || cell.figure == Figure::cost_of_cameras)
     std::erase_if(methods, [](const PoseMethod& method) { return !method.takes_rigs; });
+  if (cell.figure == Figure::tilt) methods.insert(methods.begin() + 1, softPlaneMethod());
   return methods;
 }
 

@@ -32,6 +32,9 @@ struct PoseMethod {
 /// All methods, ours first.
 std::vector<PoseMethod> poseMethods();
 
+/// Ours, told that the robot may tilt by some 0.5 deg. For worlds with tilt.
+PoseMethod softPlaneMethod();
+
 /// Whether OpenGV's methods are among them: the library is optional where vmcl is built.
 bool hasOpenGv();
 

@@ -27,6 +27,7 @@ struct WorldSettings {
   double outlier_rate = 0;      ///< share of each camera's matches, in [0, 1], rounded to whole matches
   double depth_rate = 1;        ///< share of each camera's matches whose depth is reliable, in [0, 1], one at least
   double noise_px = 2;          ///< standard deviation of a pixel coordinate in either image, at most 100
+  double tilt = 0;              ///< of the robot, about a random horizontal axis through its origin; rad, in [0, 0.2]
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;

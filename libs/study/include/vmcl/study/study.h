@@ -13,15 +13,16 @@
 
 namespace vmcl {
 
-/// The figures of the simulation study of Jiao et al. 2020, and what estimates cost.
+/// The figures of the simulation study of Jiao et al. 2020, what tilt does, and what estimates cost.
 enum class Figure {
   accuracy,         ///< errors against pixel noise, no outliers
   success,          ///< success rate against outlier rate and depth rate
+  tilt,             ///< success rate against the robot's tilt, of which the planar methods know nothing
   cost_of_matches,  ///< time against the number of matches
   cost_of_cameras,  ///< time against the number of cameras
 };
 
-/// "accuracy", "success", "cost-matches" or "cost-cameras".
+/// "accuracy", "success", "tilt", "cost-matches" or "cost-cameras".
 std::string_view nameOf(Figure figure);
 
 /// An estimate is a success when it is nearer to the truth than both.
@@ -39,7 +40,7 @@ struct StudyCell {
 std::vector<StudyCell> studyCells(const std::vector<Figure>& figures);
 
 /// Those that can take part in a cell, the same in all cells of a world and figure: for several cameras the methods
-/// that take rigs.
+/// that take rigs; with tilt, the one that allows for it as well.
 std::vector<PoseMethod> methodsOf(const StudyCell& cell);
 
 /// What the methods of the cell are told about it.
