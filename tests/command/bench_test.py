@@ -53,10 +53,10 @@ class BenchTest(CommandTest):
     def test_pictures(self):
         files = self.bench('out', '--trials', 1, '--threads', 2, '--figures', 'all')[1]
         pictures = {name for name in files if name.endswith('.svg')}
-        self.assertEqual(len(pictures), 10, pictures)
+        self.assertEqual(len(pictures), 12, pictures)
         for name in pictures:
             self.assertTrue(ElementTree.fromstring(files[name]).tag.endswith('svg'), name)
-        for name in ('success_paper_1_camera.svg', 'success_authors_3_cameras.svg', 'cost_matches.svg',
+        for name in ('success_paper_1_camera.svg', 'success_authors_3_cameras.svg', 'tilt_paper.svg', 'cost_matches.svg',
                      'cost_cameras.svg'):
             self.assertIn(name, pictures)
             text = ''.join(ElementTree.fromstring(files[name]).itertext())

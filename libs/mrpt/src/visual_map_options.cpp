@@ -22,6 +22,8 @@ void visitLikelihoodOptions(Options& options, Visit&& visit) {
   visit("max_ratio", relocalizer.matching.max_ratio);
   visit("sigma_px", relocalizer.estimator.likelihood.sigma_px);
   visit("inlier_prior", relocalizer.estimator.likelihood.inlier_prior);
+  visit("sigma_tilt", relocalizer.estimator.plane.sigma_tilt);
+  visit("sigma_height", relocalizer.estimator.plane.sigma_height);
   visit("iterations", relocalizer.estimator.iterations);
   visit("max_modes", relocalizer.estimator.max_modes);
 }

@@ -18,7 +18,7 @@ struct EstimatorOptions {
   Solver solver = Solver::automatic;
   int iterations = 20000;  ///< most random samples drawn, at least 1; easy problems need few
   uint64_t seed = 1;       ///< same seed, same answer
-  LikelihoodOptions likelihood;
+  LikelihoodOptions likelihood{};
   bool estimate_sigma_px = false;  ///< whether the pixel noise is but a first guess, to be estimated from the inliers
   int refined = 32;                ///< best hypotheses that are optimized, at least 1
   int max_modes = 5;               ///< modes reported, at least 1

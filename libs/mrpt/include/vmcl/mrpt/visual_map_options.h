@@ -27,7 +27,7 @@ struct VisualMapOptions {
   double particle_sigma_px = 8;    ///< [.._likelihoodOpts] pixel noise when particles are weighed
   double match_weight = 0.04;      ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
-                                   ///< sigma_px, inlier_prior, iterations, max_modes
+                                   ///< sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations, max_modes
   std::string features = "sift";   ///< [.._insertOpts] sift or orb
   MapBuilderOptions builder;       ///< [.._insertOpts] max_features, mask_rows_from_top, keyframe_distance,
                                    ///< keyframe_rotation, sigma_mount_tilt, words

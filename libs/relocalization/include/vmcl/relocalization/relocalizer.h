@@ -18,7 +18,8 @@ struct RelocalizerOptions {
   double reliable_depth = 10;    ///< landmarks farther from the reference than this (m) give 2D-2D matches
   double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
                                  ///< than the paper's 5 m, since each point carries its covariance
-  EstimatorOptions estimator{};
+  EstimatorOptions estimator{
+      .plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}};  ///< floors and tyres give a little
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
