@@ -56,8 +56,8 @@ class BenchTest(CommandTest):
         self.assertEqual(len(pictures), 12, pictures)
         for name in pictures:
             self.assertTrue(ElementTree.fromstring(files[name]).tag.endswith('svg'), name)
-        for name in ('success_paper_1_camera.svg', 'success_authors_3_cameras.svg', 'tilt_paper.svg', 'cost_matches.svg',
-                     'cost_cameras.svg'):
+        for name in ('success_paper_1_camera.svg', 'success_authors_3_cameras.svg', 'tilt_paper.svg',
+                     'cost_matches.svg', 'cost_cameras.svg'):
             self.assertIn(name, pictures)
             text = ''.join(ElementTree.fromstring(files[name]).itertext())
             self.assertIn('vmcl', text)
