@@ -24,8 +24,10 @@ int dimensionOf(FeatureKind kind) {
 /// A descriptor as a point of Euclidean space: SIFT as it is, the bits of ORB as -1 and +1.
 Eigen::RowVectorXf toVector(FeatureKind kind, const uint8_t* descriptor) {
   Eigen::RowVectorXf vector(dimensionOf(kind));
-  for (int i = 0; i < vector.size(); ++i)
-    vector[i] = kind == FeatureKind::sift ? descriptor[i] : (descriptor[i / 8] >> (i % 8) & 1) != 0 ? 1.0f : -1.0f;
+  if (kind == FeatureKind::sift) return Eigen::RowVectorX<uint8_t>::Map(descriptor, vector.size()).cast<float>();
+  for (int byte = 0; byte < descriptorBytes(kind); ++byte)
+    for (int bit = 0; bit < 8; ++bit)
+      vector[8 * byte + bit] = static_cast<float>(2 * (descriptor[byte] >> bit & 1) - 1);
   return vector;
 }
 
