@@ -24,8 +24,8 @@ std::string titleOfCell(const ExperimentResults& results, const CellGroup& group
 constexpr const char* plain_axes =
     "set termoption noenhanced\nset grid lc rgb '#dddddd'\nset border 3 lc rgb '#666666'\nset tics nomirror\n";
 
-/// The first run of each method, while localized.
-std::string pathsCommands(const ExperimentResults& results, const CellGroup& group, const std::vector<PlotLayer>& map) {
+/// The truth, and the first run of each method while localized.
+std::vector<PlotLayer> pathsOf(const ExperimentResults& results, const CellGroup& group) {
   std::vector<PlotLayer> paths;
   paths.push_back(groundTruthLayer(results.ground_truths[group.session]));
   paths.back().style = "with lines lw 7 lc rgb '#f3dc7a'";  // the paths lie on it
@@ -37,10 +37,14 @@ std::string pathsCommands(const ExperimentResults& results, const CellGroup& gro
         pathLayer(nameOf(results.experiment, group.cells[c].method), "with lines lw 1.5 " + lineStyle(c), estimates));
   }
   std::erase_if(paths, [](const PlotLayer& layer) { return layer.empty(); });
+  return paths;
+}
+
+std::string pathsCommands(const std::vector<PlotLayer>& paths, const std::vector<PlotLayer>& map) {
   std::ostringstream commands;
   writeData(commands, "map", map);
   writeData(commands, "path", paths);
-  commands << plain_axes << viewOf(paths)
+  commands << plain_axes << rangesOf(viewOf(paths))
            << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset key outside\nplot " << plotOf("map", map)
            << (map.empty() ? "" : ", ") << plotOf("path", paths) << '\n';
   return commands.str();
@@ -168,7 +172,8 @@ std::vector<GroupPicture> drawGroup(const std::filesystem::path& directory, cons
     pictures.push_back({svg, caption});
   };
   std::filesystem::create_directories(directory / "plots");
-  draw("paths", "1000,700", pathsCommands(results, group, map),
+  const std::vector<PlotLayer> paths = pathsOf(results, group);
+  draw("paths", "1000," + std::to_string(heightOf(viewOf(paths), 1000)), pathsCommands(paths, map),
        "Paths over the map, first seed of each method, while localized");
   draw("errors", "1000,560", errorCommands(results, group, grid),
        "Errors over time: median and quartiles over the runs, localized or not");

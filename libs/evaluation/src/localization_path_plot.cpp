@@ -20,11 +20,14 @@ std::vector<PlotLayer> layersOf(const LocalizationRun& run, const mrpt::maps::CM
 
 void writeScript(std::ostream& script, const std::vector<PlotLayer>& layers, const std::filesystem::path& svg,
                  const std::filesystem::path& png) {
+  const Eigen::AlignedBox2d view = viewOf(layers);
+  constexpr int width = 900;
+  const std::string size = std::to_string(width) + ',' + std::to_string(heightOf(view, width));
   writeData(script, "layer", layers);
-  script << viewOf(layers)
+  script << rangesOf(view)
          << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset grid lc rgb '#dddddd'\nset key outside\n"
-         << "set terminal svg size 900,700 background rgb 'white'\nset output " << quoted(svg) << "\nplot "
-         << plotOf("layer", layers) << "\nset terminal pngcairo size 900,700\nset output " << quoted(png)
+         << "set terminal svg size " << size << " background rgb 'white'\nset output " << quoted(svg) << "\nplot "
+         << plotOf("layer", layers) << "\nset terminal pngcairo size " << size << "\nset output " << quoted(png)
          << "\nreplot\n";
 }
 

@@ -84,16 +84,28 @@ PlotLayer pathLayer(const std::string& name, const std::string& style, const std
   return path;
 }
 
-std::string viewOf(const std::vector<PlotLayer>& layers) {
+Eigen::AlignedBox2d viewOf(const std::vector<PlotLayer>& layers) {
   constexpr double least_margin = 1, relative_margin = 0.15;  // m
-  Eigen::AlignedBox2d area;
-  for (const PlotLayer& layer : layers) area.extend(layer.path_area);
-  if (area.isEmpty()) return "";
-  const double margin = std::max(least_margin, relative_margin * area.sizes().maxCoeff());
-  std::ostringstream view;
-  view << "set xrange [" << area.min().x() - margin << ':' << area.max().x() + margin << "]\nset yrange ["
-       << area.min().y() - margin << ':' << area.max().y() + margin << "]\n";
-  return view.str();
+  Eigen::AlignedBox2d view;
+  for (const PlotLayer& layer : layers) view.extend(layer.path_area);
+  if (view.isEmpty()) return view;
+  const Eigen::Vector2d margin =
+      Eigen::Vector2d::Constant(std::max(least_margin, relative_margin * view.sizes().maxCoeff()));
+  return {view.min() - margin, view.max() + margin};
+}
+
+std::string rangesOf(const Eigen::AlignedBox2d& view) {
+  if (view.isEmpty()) return "";
+  std::ostringstream ranges;
+  ranges << "set xrange [" << view.min().x() << ':' << view.max().x() << "]\nset yrange [" << view.min().y() << ':'
+         << view.max().y() << "]\n";
+  return ranges.str();
+}
+
+int heightOf(const Eigen::AlignedBox2d& view, int width) {
+  constexpr double beside = 0.3, below = 90;  // the legend's share of the width; axis and labels, px
+  const double aspect = view.isEmpty() ? 1 : view.sizes().y() / view.sizes().x();
+  return static_cast<int>(below + (1 - beside) * width * std::clamp(aspect, 0.2, 1.2));
 }
 
 void writeData(std::ostream& script, const std::string& prefix, const std::vector<PlotLayer>& layers) {

@@ -31,8 +31,14 @@ PlotLayer groundTruthLayer(const Trajectory& ground_truth);
 /// The poses while localized.
 PlotLayer pathLayer(const std::string& name, const std::string& style, const std::vector<TimedEstimate>& estimates);
 
-/// Shows the paths among the layers and what is around them, as the map may reach far.
-std::string viewOf(const std::vector<PlotLayer>& layers);
+/// The paths among the layers and what is around them: the map may reach far. Empty without a path.
+Eigen::AlignedBox2d viewOf(const std::vector<PlotLayer>& layers);
+
+/// Commands that show a view.
+std::string rangesOf(const Eigen::AlignedBox2d& view);
+
+/// Of a picture of this width with a legend beside the view, px.
+int heightOf(const Eigen::AlignedBox2d& view, int width);
 
 /// The data blocks $PREFIX0, $PREFIX1, ... of the layers.
 void writeData(std::ostream& script, const std::string& prefix, const std::vector<PlotLayer>& layers);
