@@ -5,48 +5,12 @@
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
-#include "fake_camera_map.h"
-#include "filter_setup.h"
+#include "localizer_setup.h"
 
 namespace vmcl {
 namespace {
 
 using mrpt::obs::CObservation;
-using mrpt::obs::CObservationComment;
-using mrpt::obs::CObservationOdometry;
-
-mrpt::maps::CMultiMetricMap::Ptr mapsWith(const std::shared_ptr<FakeMap>& map) {
-  auto maps = mrpt::maps::CMultiMetricMap::Create();
-  maps->maps.push_back(map);
-  return maps;
-}
-
-/// All particles at (1, 2, 0), and little noise.
-LocalizationConfig tracking() {
-  LocalizationConfig config;
-  config.particles_count = 200;
-  config.start = {1, 1, 2, 2, 0, 0};
-  config.motion_model.gaussianModel.minStdXY = 0.001;
-  config.motion_model.gaussianModel.minStdPHI = 0.001;
-  config.localized.min_frames = 2;
-  return config;
-}
-
-std::shared_ptr<FakeMap> flatMap() {
-  return std::make_shared<FakeMap>([](const PlanarPose&) { return 0; });
-}
-
-CObservation::Ptr commentAt(double time) {
-  auto observation = CObservationComment::Create();
-  observation->timestamp = mrpt::Clock::fromDouble(time);
-  return observation;
-}
-
-CObservation::Ptr odometry(double x) {
-  auto observation = CObservationOdometry::Create();
-  observation->odometry = mrpt::poses::CPose2D(x, 0, 0);
-  return observation;
-}
 
 TEST(Localizer, FollowsTheOdometryOfSingleObservations) {
   Localizer localizer(tracking(), mapsWith(flatMap()));
@@ -78,11 +42,10 @@ TEST(Localizer, KeepsTheOdometryAcrossObservationsOfNoUse) {
 TEST(Localizer, TakesPairsOfActionsAndFrames) {
   Localizer localizer(tracking(), mapsWith(flatMap()));
   const auto action = std::make_shared<mrpt::obs::CActionCollection>(movement(0.3, 0));
-  const auto frame = std::make_shared<mrpt::obs::CSensoryFrame>(someObservation());
-  const auto first = localizer.step(action, frame, nullptr);  // the start is where the first frame was taken
+  const auto first = localizer.step(action, someFrame(), nullptr);  // the start is where the first frame was taken
   ASSERT_TRUE(first);
   EXPECT_NEAR(first->cluster.robot_in_map.x, 1, 1e-9);
-  EXPECT_NEAR(localizer.step(action, frame, nullptr)->cluster.robot_in_map.x, 1.3, 0.02);
+  EXPECT_NEAR(localizer.step(action, someFrame(), nullptr)->cluster.robot_in_map.x, 1.3, 0.02);
 }
 
 TEST(Localizer, SkipsTheOffset) {
@@ -186,9 +149,8 @@ mrpt::obs::CActionCollection::Ptr movementInSpace(double x) {
 // A cluster that moves otherwise than the odometry says never counts as localized.
 TEST(Localizer, FollowsMovementsInSpace) {
   Localizer localizer(tracking(), mapsWith(flatMap()));
-  const auto frame = std::make_shared<mrpt::obs::CSensoryFrame>(someObservation());
   for (int i = 0; i < 3; ++i) {
-    const auto result = localizer.step(movementInSpace(1), frame, nullptr);
+    const auto result = localizer.step(movementInSpace(1), someFrame(), nullptr);
     EXPECT_NEAR(result->cluster.robot_in_map.x, 1 + i, 0.02);
     EXPECT_EQ(result->localized, i > 0);
   }
@@ -196,11 +158,10 @@ TEST(Localizer, FollowsMovementsInSpace) {
 
 TEST(Localizer, LeavesOutMovementsThatAreNone) {
   Localizer localizer(tracking(), mapsWith(flatMap()));
-  const auto frame = std::make_shared<mrpt::obs::CSensoryFrame>(someObservation());
-  localizer.step(nullptr, frame, nullptr);
+  localizer.step(nullptr, someFrame(), nullptr);
   for (const double x : {1e300, 1e4, std::nan("")})
     for (const auto& action : {movementInSpace(x), std::make_shared<mrpt::obs::CActionCollection>(movement(x, 0))}) {
-      EXPECT_NEAR(localizer.step(action, frame, nullptr)->cluster.robot_in_map.x, 1, 0.02);
+      EXPECT_NEAR(localizer.step(action, someFrame(), nullptr)->cluster.robot_in_map.x, 1, 0.02);
       EXPECT_EQ(localizer.takeProblems().size(), 1U) << x;
     }
 }

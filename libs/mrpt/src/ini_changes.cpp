@@ -15,7 +15,7 @@ namespace {
 
 /// Of our own sections unknown keys are refused anyway.
 bool isOwnSection(const std::string& section) {
-  return section == "vmcl" || section.starts_with("MetricMap_visualKeyframes_");
+  return section == "vmcl" || section == "amcl" || section.starts_with("MetricMap_visualKeyframes_");
 }
 
 }  // namespace

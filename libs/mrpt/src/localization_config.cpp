@@ -16,9 +16,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "amcl_ini.h"
 #include "ini_changes.h"
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/ini_section.h"
+#include "vmcl/mrpt/kld_sample_size.h"
 
 namespace vmcl {
 namespace {
@@ -108,6 +110,9 @@ void placeMapFiles(CConfigFileMemory& ini, const fs::path& ini_file, std::vector
     if (const std::string file = ini.read_string(section, "map_file", "");
         !file.empty() && section.ends_with("_creationOpts"))
       ini.write(section, "map_file", locate(file, ini_file).string());
+  for (const bool visual : {false, true})
+    if (std::count_if(map_files.begin(), map_files.end(), of_kind(visual)) > 1)
+      throw std::invalid_argument(std::string("two map files for the one ") + (visual ? "visual map" : "laser's map"));
   for (const fs::path& file : map_files) {
     if (!isVisualMap(file)) {
       config.map_file = file;
@@ -142,12 +147,17 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& ini_file, Loca
   if (config.rawlog_file.empty()) section.fail("rawlog_file", "no rawlog is given");
   section.read("rawlog_offset", config.rawlog_offset);
   if (config.rawlog_offset < 0) section.fail("rawlog_offset", "is negative");
-  config.particles_count = firstCount(section, "particles_count");
+  if (!hasAmclSection(ini) || section.has("particles_count"))
+    config.particles_count = firstCount(section, "particles_count");
 }
 
 void readStart(const CConfigFileMemory& ini, LocalizationConfig& config) {
   IniSection section(ini, "LocalizationExperiment");
-  if (!section.has("init_PDF_mode")) section.fail("init_PDF_mode", "is missing");
+  if (!section.has("init_PDF_mode")) {
+    if (!hasAmclSection(ini)) section.fail("init_PDF_mode", "is missing");
+    config.start_anywhere = true;
+    return;
+  }
   bool anywhere_in_box = false;
   section.read("init_PDF_mode", anywhere_in_box);
   config.start_in_free_space = !anywhere_in_box;
@@ -193,14 +203,11 @@ void readFilter(const CConfigFileMemory& ini, LocalizationConfig& config) {
     if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
   };
   config.kld.loadFromConfigFile(ini, "KLD_options");
-  const auto& kld = config.kld;
-  demand(kld.KLD_minSampleSize >= 1 && kld.KLD_minSampleSize <= max_particles, "[KLD_options] KLD_minSampleSize");
-  demand(kld.KLD_maxSampleSize >= kld.KLD_minSampleSize && kld.KLD_maxSampleSize <= max_particles,
-         "[KLD_options] KLD_maxSampleSize");
-  demand(kld.KLD_binSize_XY > 0 && std::isfinite(kld.KLD_binSize_XY), "[KLD_options] KLD_binSize_XY");
-  demand(kld.KLD_binSize_PHI > 0 && std::isfinite(kld.KLD_binSize_PHI), "[KLD_options] KLD_binSize_PHI_deg");
-  demand(kld.KLD_delta > 0 && kld.KLD_delta < 1, "[KLD_options] KLD_delta");
-  demand(kld.KLD_epsilon > 0 && kld.KLD_epsilon < 1, "[KLD_options] KLD_epsilon");
+  try {
+    KldSampleSize{config.kld};
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("[KLD_options] ") + error.what());
+  }
   config.filter.PF_algorithm = ini.read_enum("PF_options", "PF_algorithm", config.filter.PF_algorithm);
   checkSupported(config.filter);  // at once, because MRPT asks for more keys with another algorithm
   config.filter.loadFromConfigFile(ini, "PF_options");
@@ -216,6 +223,11 @@ void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {
   section.read("injection_share", config.monte_carlo.injection_share);
   section.read("kidnapping_probability", config.monte_carlo.kidnapping_probability);
   section.read("aliasing_probability", config.monte_carlo.aliasing_probability);
+  section.read("update_min_d", config.update_min_d);
+  section.read("update_min_a", config.update_min_a);
+  section.read("degraded_after", config.health.degraded_after);
+  section.read("lost_after", config.health.lost_after);
+  section.read("lost_reset_after", config.health.lost_reset_after);
   section.read("max_position_deviation", config.localized.max_position_deviation);
   double max_heading_deviation_deg = mrpt::RAD2DEG(config.localized.max_heading_deviation);
   section.read("max_heading_deviation_deg", max_heading_deviation_deg);
@@ -224,24 +236,13 @@ void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {
   section.read("min_frames", config.localized.min_frames);
   section.refuseUnknownKeys();
   try {
-    config.monte_carlo.check();
-    config.localized.check();
+    config.check();
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("[vmcl] ") + error.what());
   }
 }
 
 }  // namespace
-
-void LocalizedRule::check() const {
-  const auto demand = [](bool valid, const char* key) {
-    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
-  };
-  demand(max_position_deviation > 0 && std::isfinite(max_position_deviation), "max_position_deviation");
-  demand(max_heading_deviation > 0 && std::isfinite(max_heading_deviation), "max_heading_deviation_deg");
-  demand(min_share > 0 && min_share <= 1, "min_share");
-  demand(min_frames >= 1, "min_frames");
-}
 
 LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::vector<fs::path>& map_files,
                                           const fs::path& rawlog_file, const IniChanges& changes) try {
@@ -251,10 +252,14 @@ LocalizationConfig loadLocalizationConfig(const fs::path& ini_file, const std::v
   config.ini_file = ini_file;
   config.rawlog_file = rawlog_file;
   refuseNonFiniteValues(ini);
+  if (hasAmclSection(ini)) {
+    readAmclSection(ini, config);
+  } else {
+    readMotionModel(ini, config);
+    readFilter(ini, config);
+  }
   readExperiment(ini, ini_file, config);
   readStart(ini, config);
-  readMotionModel(ini, config);
-  readFilter(ini, config);
   readOwnSection(ini, config);
   refuseUnknownMaps(ini);
   std::vector<fs::path> used_map_files = map_files;

@@ -2,153 +2,216 @@
 #include "vmcl/mrpt/localizer.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/obs/CActionRobotMovement3D.h>
-#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "map_region.h"
 #include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/movement.h"
+#include "vmcl/mrpt/observation_verdict.h"
 #include "vmcl/mrpt/pose_conversion.h"
-#include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
 namespace {
 
 using mrpt::maps::CMultiMetricMap;
-using mrpt::maps::COccupancyGridMap2D;
 using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
-using mrpt::poses::CPosePDFGaussian;
 
-constexpr double max_movement = 1e3;  // m between two readings: more is no movement but a fault
-
-bool isPlausible(const PlanarPose& movement) {
-  return isFinite(movement) && std::hypot(movement.x, movement.y) <= max_movement;
-}
-
-PoseRegion startRegion(const LocalizationConfig& config, const CMultiMetricMap& maps) {
-  if (!config.start_in_free_space) return PoseRegion(config.start);
-  const auto grid = maps.mapByClass<COccupancyGridMap2D>();
-  if (!grid) throw std::invalid_argument("init_PDF_mode = 0 needs a grid map ([MetricMap] occupancyGrid_count = 1)");
-  return {config.start, *grid};
-}
-
-/// Where a lost robot may be: the free space of the grid map, or the starting box together with the visual maps.
-PoseRegion anywhere(const LocalizationConfig& config, const CMultiMetricMap& maps) {
-  PoseBox box = config.start;
-  box.min_phi = -std::numbers::pi;
-  box.max_phi = std::numbers::pi;
-  if (const auto grid = maps.mapByClass<COccupancyGridMap2D>(); grid && !grid->isEmpty()) {
-    box.min_x = grid->getXMin();
-    box.max_x = grid->getXMax();
-    box.min_y = grid->getYMin();
-    box.max_y = grid->getYMax();
-    return {box, *grid};
-  }
-  for (const auto& map : maps.maps)
-    if (const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get())) relocalizing->extend(box);
-  return PoseRegion(box);
-}
-
-/// None: the action tells of no movement.
-std::optional<CPosePDFGaussian> movementOf(const CActionCollection* action) {
-  if (!action) return std::nullopt;
-  CPosePDFGaussian movement;
-  if (const auto planar = action->getBestMovementEstimation()) {
-    movement.copyFrom(*planar->poseChange);
-    return movement;
-  }
-  const auto spatial = action->getActionByClass<mrpt::obs::CActionRobotMovement3D>();
-  if (!spatial) return std::nullopt;
-  movement.copyFrom(spatial->poseChange);
-  return movement;
-}
+double timeOf(const CSensoryFrame& frame) { return mrpt::Clock::toDouble((*frame.begin())->timestamp); }
 
 }  // namespace
 
-Localizer::Localizer(const LocalizationConfig& config, CMultiMetricMap::Ptr maps)
-    : config_(config),
-      maps_(std::move(maps)),
-      filter_(maps_, config.kld, config.filter, config.monte_carlo, anywhere(config, *maps_)) {
-  filter_.start(config.start_anywhere ? anywhere(config, *maps_) : startRegion(config, *maps_), config.particles_count);
+/// What of a frame the maps can use, and what its images say.
+struct Localizer::Used {
+  struct Observation {
+    CObservation::Ptr observation;
+    std::vector<PoseMode> modes;
+  };
+  CSensoryFrame frame;
+  std::vector<Observation> observations;
+  int inliers = 0;
+
+  std::vector<PoseMode> modes() const {
+    std::vector<PoseMode> all;
+    for (const auto& one : observations) all.insert(all.end(), one.modes.begin(), one.modes.end());
+    return all;
+  }
+};
+
+Localizer::Localizer(const LocalizerOptions& options)
+    : options_(options),
+      maps_(CMultiMetricMap::Create()),
+      anywhere_(PoseBox{}),
+      filter_(maps_, options.kld, options.filter, options.monte_carlo, anywhere_),
+      monitor_(options.health),
+      random_(options.monte_carlo.seed, 2) {
+  options_.check();
+}
+
+Localizer::Localizer(const LocalizationConfig& config, CMultiMetricMap::Ptr maps) : Localizer(config) {
+  const PoseBox& box = config.start;
+  const bool is_range = box.min_x < box.max_x || box.min_y < box.max_y;
+  setMap(std::move(maps), is_range ? std::optional(box) : std::nullopt);
+  steps_to_skip_ = config.rawlog_offset;
+  if (config.initial_pose)
+    setInitialPose(*config.initial_pose);
+  else if (config.start_anywhere)
+    globalLocalization();
+  else
+    filter_.start(startRegion(config, *maps_), options_.particles_count);
+}
+
+void Localizer::setMap(CMultiMetricMap::Ptr maps, const std::optional<PoseBox>& extent) {
+  anywhere_ = regionOf(*maps, extent);
+  maps_ = std::move(maps);
+  filter_.setMap(maps_, anywhere_);
+  steady_frames_ = 0;
+  expected_.reset();
+}
+
+void Localizer::restart() {
+  monitor_.restart();
+  pending_ = since_update_ = {};
+  steady_frames_ = 0;
+  expected_.reset();
+  updated_at_.reset();
+  lost_at_.reset();
+}
+
+void Localizer::setInitialPose(const PoseWithCovariance& pose) {
+  filter_.start(pose, options_.particles_count);
+  restart();
+  if (anywhere_.volume() > 0 && !anywhere_.covers(pose.robot_in_map))
+    problems_.push_back("the initial pose is off the map: x " + std::to_string(pose.robot_in_map.x) + " m, y " +
+                        std::to_string(pose.robot_in_map.y) + " m");
+}
+
+void Localizer::globalLocalization() {
+  filter_.start(anywhere_, options_.particles_count);
+  restart();
 }
 
 std::vector<std::string> Localizer::takeProblems() { return std::exchange(problems_, {}); }
 
-std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& action, const CSensoryFrame::Ptr& frame,
-                                                 const CObservation::Ptr& observation) {
-  if (const auto reading = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) {
-    addOdometry(*reading);
-    return std::nullopt;
+PoseWithCovariance Localizer::estimate() const {
+  if (filter_.m_particles.empty()) throw std::logic_error("no start has been given");
+  const PoseCluster cluster = dominantCluster(filter_);
+  return {cluster.robot_in_map * pending_, cluster.covariance};
+}
+
+std::vector<PoseCluster> Localizer::clusters() const {
+  if (filter_.m_particles.empty()) return {};
+  std::vector<PoseCluster> all = poseClusters(filter_);
+  for (PoseCluster& cluster : all) cluster.robot_in_map = cluster.robot_in_map * pending_;
+  return all;
+}
+
+std::optional<LocalizationFrame> Localizer::process(const CActionCollection* action,
+                                                    const CSensoryFrame& observations) {
+  return processNew(action, newOnes(observations));
+}
+
+std::optional<LocalizationFrame> Localizer::processNew(const CActionCollection* action,
+                                                       const CSensoryFrame& observations) {
+  if (filter_.m_particles.empty()) return std::nullopt;
+  const bool due = advance(isUsable(action) ? action : nullptr);
+  return due ? update(observations) : std::nullopt;
+}
+
+std::optional<LocalizationFrame> Localizer::process(const PlanarPose& movement, const CSensoryFrame& observations) {
+  const CActionCollection action = actionOf(movement);
+  return process(&action, observations);
+}
+
+/// Moves the particles, or, for a motion model whose noise depends on the whole way, remembers the movement until the
+/// next update. Returns whether one is due.
+bool Localizer::advance(const CActionCollection* action) {
+  if (!updated_at_) return true;  // the start is where the first observation is taken
+  if (const auto movement = movementOf(action)) {
+    const PlanarPose mean = toPlanarPose(movement->mean);
+    since_update_ = since_update_ * mean;
+    if (expected_) expected_ = *expected_ * mean;
+    if (options_.monte_carlo.motion_model)
+      pending_ = pending_ * mean;
+    else
+      filter_.update(action, nullptr);
   }
-  if (steps_++ < config_.rawlog_offset) return std::nullopt;
-  if (frame) return update(isUsable(action.get()) ? action.get() : nullptr, *frame);
-  if (!observation || !maps_->canComputeObservationLikelihood(*observation)) return std::nullopt;
-  CSensoryFrame single;
-  single.insert(observation);
-  const CActionCollection motion = motionSinceLastUpdate();
-  return update(&motion, single);
+  return update_requested_ || std::abs(since_update_.x) > options_.update_min_d ||
+         std::abs(since_update_.y) > options_.update_min_d || std::abs(since_update_.phi) > options_.update_min_a ||
+         (options_.update_min_d == 0 && options_.update_min_a == 0);
 }
 
-bool Localizer::isUsable(const CActionCollection* action) {
-  const auto movement = movementOf(action);
-  const bool boundless = !movement && action && action->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
-  if (!boundless && !movement) return true;
-  if (movement && isPlausible(toPlanarPose(movement->mean)) && movement->cov.asEigen().allFinite()) return true;
-  problems_.push_back("a movement that is not finite or of more than 1000 m");
-  return false;
-}
-
-void Localizer::addOdometry(const mrpt::obs::CObservationOdometry& reading) {
-  const std::string sensor = "odometry '" + reading.sensorLabel + "': ";
-  const PlanarPose pose = toPlanarPose(reading.odometry);
-  if (!isFinite(pose)) {
-    problems_.push_back(sensor + "a reading that is not finite");
-    return;
+std::optional<LocalizationFrame> Localizer::update(const CSensoryFrame& observations) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Used used = usable(observations);
+  if (used.observations.empty()) return std::nullopt;
+  const double time = timeOf(used.frame);
+  allowForStoppedOdometry(time);
+  if (options_.monte_carlo.motion_model) {
+    const CActionCollection moved = actionOf(std::exchange(pending_, {}));
+    filter_.update(&moved, nullptr);
   }
-  const PlanarPose increment = odometry_ ? inverse(*odometry_) * pose : PlanarPose();
-  odometry_ = pose;
-  if (isPlausible(increment))
-    moved_ = moved_ * increment;
-  else
-    problems_.push_back(sensor + "a jump of more than 1000 m");
+  if (!options_.odometry_only) filter_.update(nullptr, &used.frame, used.modes());
+  updated_at_ = time;
+  since_update_ = {};
+  update_requested_ = false;
+  const PoseCluster cluster = dominantCluster(filter_);
+  UpdateEvidence seen = evidence(used, cluster);
+  countSteadyFrames(cluster, seen);
+  monitor_.update(seen);
+  LocalizationFrame result = report(time);
+  result.inliers = used.inliers;
+  recover(time);
+  result.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
 }
 
-/// With the odometry readings so far; when there are none the robot may have moved by the model's least noise.
-CActionCollection Localizer::motionSinceLastUpdate() {
-  const PlanarPose moved = std::exchange(moved_, {});
-  mrpt::obs::CActionRobotMovement2D movement;
-  movement.computeFromOdometry({moved.x, moved.y, moved.phi}, config_.motion_model);
-  CActionCollection motion;
-  motion.insert(movement);
-  return motion;
+LocalizationFrame Localizer::report(double time) {
+  LocalizationFrame result;
+  result.time = time;
+  result.cluster = dominantCluster(filter_);
+  result.cluster.robot_in_map = result.cluster.robot_in_map * pending_;
+  result.health = monitor_.health();
+  result.localized = result.health.status == LocalizationStatus::tracking;
+  result.effective_share = filter_.effectiveShare();
+  result.particles = static_cast<int>(filter_.particlesCount());
+  return result;
 }
 
-CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode>& modes, int& inliers) {
-  CSensoryFrame used;
+/// Those that a map can use and that come for the first time.
+CSensoryFrame Localizer::newOnes(const CSensoryFrame& frame) {
+  CSensoryFrame ones;
   for (const auto& observation : frame) {
     if (!maps_->canComputeObservationLikelihood(*observation)) continue;
-    if (config_.odometry_only) {
-      used.insert(observation);
-      continue;
-    }
+    if (order_.isNew(*observation))
+      ones.insert(observation);
+    else
+      problems_.push_back("sensor '" + observation->sensorLabel + "': an observation twice or out of order");
+  }
+  return ones;
+}
+
+Localizer::Used Localizer::usable(const CSensoryFrame& frame) {
+  Used used;
+  for (const auto& observation : frame) {
     try {
-      std::vector<PoseMode> found;
-      int found_inliers = 0;
+      Used::Observation one{observation, {}};
+      int inliers = 0;
       for (const auto& map : maps_->maps) {
         const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
-        if (!relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
-        const PoseEstimate estimate = relocalizing->relocalize(*observation, config_.monte_carlo.seed);
-        found.insert(found.end(), estimate.modes.begin(), estimate.modes.end());
-        if (estimate.found()) found_inliers += static_cast<int>(estimate.modes.front().inliers.size());
+        if (options_.odometry_only || !relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
+        const PoseEstimate estimate = relocalizing->relocalize(*observation, options_.monte_carlo.seed);
+        one.modes.insert(one.modes.end(), estimate.modes.begin(), estimate.modes.end());
+        if (estimate.found()) inliers += static_cast<int>(estimate.modes.front().inliers.size());
       }
-      modes.insert(modes.end(), found.begin(), found.end());
-      inliers += found_inliers;
-      used.insert(observation);
+      used.inliers += inliers;
+      used.frame.insert(observation);
+      used.observations.push_back(std::move(one));
     } catch (const std::exception& error) {
       problems_.push_back(errorMessage(error));
     }
@@ -156,9 +219,25 @@ CSensoryFrame Localizer::usable(const CSensoryFrame& frame, std::vector<PoseMode
   return used;
 }
 
+UpdateEvidence Localizer::evidence(const Used& used, const PoseCluster& cluster) {
+  UpdateEvidence evidence;
+  evidence.time = timeOf(used.frame);
+  evidence.blind_motion = odometry_stopped_;
+  if (options_.odometry_only) return evidence;
+  for (const auto& [observation, modes] : used.observations)
+    for (const auto& map : maps_->maps) {
+      if (!map->canComputeObservationLikelihood(*observation)) continue;
+      const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
+      evidence.count(relocalizing ? judgeImage(*relocalizing, *observation, modes, cluster.robot_in_map)
+                                  : judgeByRank(*map, *observation, anywhere_, cluster.robot_in_map, random_));
+    }
+  return evidence;
+}
+
 /// One deceptive image can carry a whole cluster elsewhere: a robot that jumps is not localized.
-void Localizer::countSteadyFrames(const PoseCluster& cluster) {
-  const LocalizedRule& rule = config_.localized;
+void Localizer::countSteadyFrames(const PoseCluster& cluster, UpdateEvidence& evidence) {
+  constexpr double scattered_deviation = 0.6, scattered_share = 0.5;  // m: of a cluster's radius of 1 m
+  const LocalizedRule& rule = options_.localized;
   const bool narrow = cluster.positionDeviation() <= rule.max_position_deviation &&
                       cluster.headingDeviation() <= rule.max_heading_deviation && cluster.share >= rule.min_share;
   const Eigen::Vector3d jump =
@@ -167,30 +246,29 @@ void Localizer::countSteadyFrames(const PoseCluster& cluster) {
       jump.head<2>().norm() <= rule.max_position_deviation && std::abs(jump.z()) <= rule.max_heading_deviation;
   steady_frames_ = !narrow ? 0 : as_expected ? steady_frames_ + 1 : 1;
   expected_ = cluster.robot_in_map;
+  evidence.steady = steady_frames_ >= rule.min_frames;
+  evidence.jumped = narrow && !as_expected;
+  evidence.scattered = cluster.positionDeviation() > scattered_deviation || cluster.share < scattered_share;
 }
 
-std::optional<LocalizationFrame> Localizer::update(const CActionCollection* action, const CSensoryFrame& frame) {
-  const auto begin = std::chrono::steady_clock::now();
-  LocalizationFrame result;
-  std::vector<PoseMode> modes;
-  const CSensoryFrame used = usable(frame, modes, result.inliers);
-  const CActionCollection* const motion = started_ ? action : nullptr;
-  if (const auto movement = movementOf(motion); expected_ && movement)
-    expected_ = *expected_ * toPlanarPose(movement->mean);
-  if (used.size() == 0) {
-    filter_.update(motion, nullptr);
-    return std::nullopt;
+/// A robot that is lost is sought nearby first, then everywhere.
+void Localizer::recover(double time) {
+  constexpr double share = 0.5, nearby_first = 0.2;
+  const double reset_after = options_.health.lost_reset_after;
+  if (monitor_.health().status != LocalizationStatus::lost || reset_after == 0) {
+    lost_at_.reset();
+    return;
   }
-  started_ = true;
-  filter_.update(motion, config_.odometry_only ? nullptr : &used, modes);
-  result.cluster = dominantCluster(filter_);
-  countSteadyFrames(result.cluster);
-  result.time = mrpt::Clock::toDouble((*used.begin())->timestamp);
-  result.localized = steady_frames_ >= config_.localized.min_frames;
-  result.effective_share = filter_.effectiveShare();
-  result.particles = static_cast<int>(filter_.particlesCount());
-  result.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  if (!lost_at_) {
+    lost_at_ = time;
+    scattered_nearby_ = false;
+  } else if (time - *lost_at_ >= reset_after) {
+    filter_.scatterAnywhere(share);
+    lost_at_ = time;
+  } else if (!scattered_nearby_ && time - *lost_at_ >= nearby_first * reset_after) {
+    filter_.scatterNearby(share);
+    scattered_nearby_ = true;
+  }
 }
 
 }  // namespace vmcl

@@ -2,7 +2,6 @@
 #include "vmcl/mrpt/planar_monte_carlo.h"
 
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/random.h>
 
@@ -13,7 +12,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "vmcl/mrpt/kld_sample_size.h"
 #include "vmcl/mrpt/mode_mixture.h"
+#include "vmcl/mrpt/movement.h"
 #include "vmcl/mrpt/relocalizing_map.h"
 
 namespace vmcl {
@@ -28,6 +29,8 @@ void checkShare(const char* name, double value, double high) {
 }
 
 PlanarPose planarPose(const mrpt::math::TPose2D& pose) { return {pose.x, pose.y, pose.phi}; }
+
+mrpt::math::TPose2D mrptPose(const PlanarPose& pose) { return {pose.x, pose.y, pose.phi}; }
 
 double logSumExp(std::span<const double> values) {
   const double top = *std::max_element(values.begin(), values.end());
@@ -52,6 +55,10 @@ void PlanarMonteCarloOptions::check() const {
   checkShare("injection_share", injection_share, 0.9);
   checkShare("kidnapping_probability", kidnapping_probability, 0.5);
   checkShare("aliasing_probability", aliasing_probability, 0.5);
+  if (motion_model) motion_model->check();
+  if (amcl_resampling && amcl_resampling->resample_interval < 1)
+    throw std::invalid_argument("resample_interval = " + std::to_string(amcl_resampling->resample_interval) +
+                                " is not positive");
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("threads = " + std::to_string(threads) + " is not in [1, 1024]");
 }
@@ -76,20 +83,62 @@ PlanarMonteCarlo::PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, co
       random_(monte_carlo_options.seed, 1) {
   monte_carlo_options_.check();
   check(filter_options_);
+  if (monte_carlo_options_.amcl_resampling) {
+    KldSampleSize{kld_options};                  // throws for bad options
+    filter_options_.adaptiveSampleSize = false;  // at the prediction
+  }
+  clearParticles();  // MRPT begins with one
   options.metricMap = map_;
   options.KLD_params = kld_options;
   seedMrpt(monte_carlo_options.seed);
 }
 
-void PlanarMonteCarlo::start(const PoseRegion& region, int particles) {
+void PlanarMonteCarlo::setMap(mrpt::maps::CMultiMetricMap::ConstPtr map, const PoseRegion& anywhere) {
+  map_ = std::move(map);
+  options.metricMap = map_;
+  anywhere_ = anywhere;
+}
+
+template <typename Draw>
+void PlanarMonteCarlo::drawAll(int particles, Draw&& draw) {
   if (particles < 1) throw std::invalid_argument("particles_count = " + std::to_string(particles) + " is not positive");
   m_particles.resize(static_cast<std::size_t>(particles));
   for (auto& particle : m_particles) {
-    const PlanarPose pose = region.draw(random_);
-    particle.d = {pose.x, pose.y, pose.phi};
+    particle.d = mrptPose(draw());
     particle.log_w = 0;
   }
+  updates_ = 0;
   normalize();
+}
+
+void PlanarMonteCarlo::start(const PoseRegion& region, int particles) {
+  drawAll(particles, [&] { return region.draw(random_); });
+}
+
+void PlanarMonteCarlo::start(const PoseWithCovariance& pose, int particles) {
+  pose.check();
+  drawAll(particles, pose.sampler(random_));
+}
+
+void PlanarMonteCarlo::diffuse(double position_deviation, double heading_deviation) {
+  for (auto& particle : m_particles) {
+    particle.d.x += position_deviation * random_.normal();
+    particle.d.y += position_deviation * random_.normal();
+    particle.d.phi = wrapAngle(particle.d.phi + heading_deviation * random_.normal());
+  }
+}
+
+void PlanarMonteCarlo::scatterNearby(double share) {
+  constexpr double distance = 1.0, turn = 30 * degree;  // standard deviations: m, rad
+  replaceParticles(share, [&] {
+    const PlanarPose from = planarPose(m_particles[random_.below(static_cast<uint32_t>(m_particles.size()))].d);
+    return PlanarPose{from.x + distance * random_.normal(), from.y + distance * random_.normal(),
+                      wrapAngle(from.phi + turn * random_.normal())};
+  });
+}
+
+void PlanarMonteCarlo::scatterAnywhere(double share) {
+  replaceParticles(share, [&] { return anywhere_.draw(random_); });
 }
 
 void PlanarMonteCarlo::update(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame,
@@ -112,8 +161,14 @@ void PlanarMonteCarlo::normalize() {
 }
 
 void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
-  if (!action.getBestMovementEstimation() && !action.getActionByClass<mrpt::obs::CActionRobotMovement3D>()) return;
-  prediction_and_update_pfStandardProposal(&action, nullptr, filter_options_);
+  const auto movement = movementOf(&action);
+  if (!movement) return;
+  if (const auto& model = monte_carlo_options_.motion_model) {
+    const PlanarPose mean{movement->mean.x(), movement->mean.y(), movement->mean.phi()};
+    for (auto& particle : m_particles) particle.d = mrptPose(planarPose(particle.d) * model->draw(mean, random_));
+  } else {
+    prediction_and_update_pfStandardProposal(&action, nullptr, filter_options_);
+  }
   for (const auto& particle : m_particles)
     if (!isFinite(planarPose(particle.d))) throw std::runtime_error("a movement whose noise is not finite");
   normalize();
@@ -132,14 +187,14 @@ double PlanarMonteCarlo::replaceParticles(double share, Draw&& draw) {
   const std::size_t size = m_particles.size();
   const auto count = static_cast<std::size_t>(share * static_cast<double>(size));
   if (count == 0) return 0;
+  drawn_anew_.resize(size);
   equalizeWeights();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t chosen = i + random_.below(static_cast<uint32_t>(size - i));
     std::swap(m_particles[i], m_particles[chosen]);
     drawn_anew_[chosen] = drawn_anew_[i];
     drawn_anew_[i] = true;
-    const PlanarPose pose = draw();
-    m_particles[i].d = {pose.x, pose.y, pose.phi};
+    m_particles[i].d = mrptPose(draw());
   }
   return static_cast<double>(count) / static_cast<double>(size);
 }
@@ -147,7 +202,7 @@ double PlanarMonteCarlo::replaceParticles(double share, Draw&& draw) {
 void PlanarMonteCarlo::recover() {
   constexpr double max_share = 0.9;
   const double lost_share = std::max(image_recovery_.randomShare(), other_recovery_.randomShare());
-  replaceParticles(std::min(lost_share, max_share), [&] { return anywhere_.draw(random_); });
+  scatterAnywhere(std::min(lost_share, max_share));
 }
 
 void PlanarMonteCarlo::inject(std::span<const PoseMode> modes) {
@@ -234,9 +289,33 @@ void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
 
 void PlanarMonteCarlo::resample() {
   effective_share_ = ESS();
+  if (const auto& amcl = monte_carlo_options_.amcl_resampling) {
+    constexpr double needs_resampling = 0.5;
+    if (++updates_ < amcl->resample_interval) return;
+    if (!amcl->selective_resampling || effective_share_ < needs_resampling) resampleAdaptively();
+    updates_ = 0;
+    return;
+  }
   if (filter_options_.adaptiveSampleSize || effective_share_ >= filter_options_.BETA) return;
   // The count is given because performResampling equalizes the weights of that many particles, of none by default.
   performResampling(filter_options_, m_particles.size());
+  normalize();
+}
+
+/// Draws particles until there are as many as the places where they lie ask for.
+void PlanarMonteCarlo::resampleAdaptively() {
+  std::vector<double> cumulative;
+  double sum = 0;
+  for (const auto& particle : m_particles) cumulative.push_back(sum += std::exp(particle.log_w));
+  KldSampleSize size(options.KLD_params);
+  CParticleList drawn;
+  for (std::size_t needed = 1; drawn.size() < needed;) {
+    const auto chosen = std::upper_bound(cumulative.begin(), std::prev(cumulative.end()), sum * random_.uniform());
+    drawn.push_back(m_particles[static_cast<std::size_t>(chosen - cumulative.begin())]);
+    drawn.back().log_w = 0;
+    needed = size.add(planarPose(drawn.back().d));
+  }
+  m_particles = std::move(drawn);
   normalize();
 }
 

@@ -2,29 +2,17 @@
 #pragma once
 
 #include <mrpt/maps/CMultiMetricMap.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "vmcl/mrpt/planar_monte_carlo.h"
+#include "vmcl/mrpt/localizer_options.h"
+#include "vmcl/mrpt/pose_with_covariance.h"
 #include "vmcl/mrpt/sensors.h"
 
 namespace vmcl {
-
-/// When the particles count as one known pose.
-struct LocalizedRule {
-  double max_position_deviation = 0.3;  ///< of the dominant cluster, m
-  double max_heading_deviation = 0.17;  ///< of the dominant cluster, rad
-  double min_share = 0.8;               ///< of all weight that the cluster holds, (0, 1]
-  int min_frames = 3;                   ///< updates in a row for which all of this holds, and between which the
-                                        ///< cluster moved as the odometry says, to within the same deviations
-
-  /// Throws std::invalid_argument naming the bad key.
-  void check() const;
-};
 
 /// A localization experiment as pf-localization's ini describes it, with our own section [vmcl]:
 ///
@@ -37,22 +25,16 @@ struct LocalizedRule {
 /// minStdPHI, [MetricMap] and the sections of its maps whole, [LocalizationExperiment] map_file, rawlog_file,
 /// rawlog_offset, particles_count (the first, if several), init_PDF_mode, init_PDF_min_x and so on, use_3D_poses (must
 /// be false). What concerns windows, repetitions and stock's own output is left alone.
-struct LocalizationConfig {
+struct LocalizationConfig : LocalizerOptions {
   std::filesystem::path ini_file;  ///< for messages
   mrpt::maps::TSetOfMetricMapInitializers maps;
   std::filesystem::path map_file;  ///< .simplemap(.gz) or .gridmap(.gz); empty: the maps bring their own content
   std::filesystem::path rawlog_file;
   int rawlog_offset = 0;  ///< steps skipped
-  int particles_count = 0;
   PoseBox start;
-  bool start_in_free_space = false;                                     ///< of the grid map; else anywhere in the box
-  bool start_anywhere = false;                                          ///< instead: wherever the maps allow
-  bool odometry_only = false;                                           ///< the maps weigh nothing
-  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions motion_model;  ///< for logs of observations only
-  PlanarMonteCarlo::KldOptions kld;
-  PlanarMonteCarlo::ParticleFilterOptions filter;
-  PlanarMonteCarloOptions monte_carlo;
-  LocalizedRule localized;
+  bool start_in_free_space = false;                ///< of the grid map; else anywhere in the box
+  bool start_anywhere = false;                     ///< instead: wherever the maps allow
+  std::optional<PoseWithCovariance> initial_pose;  ///< instead: about here
 };
 
 /// What is changed of an ini without editing it.

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "vmcl/mrpt/health.h"
 #include "vmcl/mrpt/localization_config.h"
+#include "vmcl/mrpt/observation_order.h"
+#include "vmcl/mrpt/odometry_track.h"
 #include "vmcl/mrpt/planar_monte_carlo.h"
 #include "vmcl/mrpt/pose_cluster.h"
 
@@ -18,7 +20,8 @@ namespace vmcl {
 /// What is known after one update.
 struct LocalizationFrame {
   double time = 0;             ///< of the observation, s
-  bool localized = false;      ///< by LocalizedRule
+  bool localized = false;      ///< the status is tracking
+  Health health;               ///< the status and its evidence
   PoseCluster cluster;         ///< the dominant one: the reported pose
   double effective_share = 0;  ///< effective sample size over number of particles
   int particles = 0;
@@ -26,22 +29,63 @@ struct LocalizationFrame {
   double latency = 0;  ///< that the update took, s of real time
 };
 
-/// Localizes a robot from the steps of a log, either of pairs of actions and frames, or of single observations with
-/// odometry among them. The particles start where the configuration says, at the first observation that a map can use.
+/// Localizes a robot in a map, as AMCL does, with cameras, lasers or whatever the maps take:
+///
+///     vmcl::Localizer localizer(vmcl::LocalizerOptions::amcl());
+///     localizer.setMap(maps);
+///     localizer.setInitialPose({{1, 2, 0}, covariance});          // or localizer.globalLocalization();
+///     localizer.process(movement, observations);                  // whenever there are new ones
+///     vmcl::PoseWithCovariance pose = localizer.estimate();       // good while health().status is tracking
+///
+/// Nothing that comes in makes it throw once it is made, but a bad map or initial pose: broken or repeated observations
+/// and movements are left out and named by takeProblems(). Not thread safe; one Localizer of a process runs at a time,
+/// unless each has its own monte_carlo.motion_model.
 class Localizer {
  public:
-  /// Throws std::invalid_argument for options that do not go together.
+  /// Without map and start. Throws std::invalid_argument naming the bad option.
+  explicit Localizer(const LocalizerOptions& options);
+
+  /// With the map, starting where the configuration says. Throws std::invalid_argument for options that do not go
+  /// together.
   Localizer(const LocalizationConfig& config, mrpt::maps::CMultiMetricMap::Ptr maps);
 
-  /// Takes in one step: either a frame with the action that led to it, or a single observation. Nothing comes back when
-  /// there was nothing in it that a map can use. Observations that cannot be used because they are broken, and
-  /// movements that are not finite or of more than 1 km, are left out and named by takeProblems().
+  /// Localizes in this map from now on; the particles stay where they are. `extent`: where the robot may be if the map
+  /// itself, with a grid or a visual map, does not tell. Throws std::invalid_argument when nothing of it is free.
+  void setMap(mrpt::maps::CMultiMetricMap::Ptr maps, const std::optional<PoseBox>& extent = std::nullopt);
+
+  /// The robot is about here when the next observation is taken. Off the map it is named by takeProblems(). Throws
+  /// std::invalid_argument for a pose or covariance that is none.
+  void setInitialPose(const PoseWithCovariance& pose);
+
+  /// The robot may be anywhere in the map.
+  void globalLocalization();
+
+  /// The next observation is used even if the robot has not moved.
+  void requestNoMotionUpdate() { update_requested_ = true; }
+
+  /// Takes in observations made at one time and the action that led to it from those before: one of MRPT, or the
+  /// movement that the odometry tells of, in the robot's frame. Nothing comes back when nothing was used: no start
+  /// given, not moved by update_min_d or update_min_a, or nothing that a map can use.
+  std::optional<LocalizationFrame> process(const mrpt::obs::CActionCollection* action,
+                                           const mrpt::obs::CSensoryFrame& observations);
+  std::optional<LocalizationFrame> process(const PlanarPose& movement, const mrpt::obs::CSensoryFrame& observations);
+
+  /// Takes in one step of a log: either a frame with the action that led to it, or a single observation, odometry among
+  /// them. In a log whose sensors have fallen silent, odometry gives a frame each time another degraded_after is over.
   std::optional<LocalizationFrame> step(const mrpt::obs::CActionCollection::Ptr& action,
                                         const mrpt::obs::CSensoryFrame::Ptr& frame,
                                         const mrpt::obs::CObservation::Ptr& observation);
 
   /// The robot has been carried off: the odometry does not tell how it came from the last reading to the next.
-  void kidnap() { odometry_.reset(); }
+  void kidnap() { odometry_.interrupt(); }
+
+  /// The dominant cluster, moved by the odometry since the last update. Throws std::logic_error before the start.
+  PoseWithCovariance estimate() const;
+
+  /// All places where the robot may be, the likeliest first; none before the start.
+  std::vector<PoseCluster> clusters() const;
+
+  const Health& health() const { return monitor_.health(); }
 
   /// One line per broken observation or movement since the last call.
   std::vector<std::string> takeProblems();
@@ -50,24 +94,43 @@ class Localizer {
   const mrpt::maps::CMultiMetricMap& maps() const { return *maps_; }
 
  private:
-  std::optional<LocalizationFrame> update(const mrpt::obs::CActionCollection* action,
-                                          const mrpt::obs::CSensoryFrame& frame);
-  mrpt::obs::CSensoryFrame usable(const mrpt::obs::CSensoryFrame& frame, std::vector<PoseMode>& modes, int& inliers);
-  bool isUsable(const mrpt::obs::CActionCollection* action);
-  void addOdometry(const mrpt::obs::CObservationOdometry& reading);
-  mrpt::obs::CActionCollection motionSinceLastUpdate();
-  void countSteadyFrames(const PoseCluster& cluster);
+  struct Used;
 
-  LocalizationConfig config_;
+  void restart();
+  mrpt::obs::CSensoryFrame newOnes(const mrpt::obs::CSensoryFrame& frame);
+  std::optional<LocalizationFrame> processNew(const mrpt::obs::CActionCollection* action,
+                                              const mrpt::obs::CSensoryFrame& observations);
+  bool advance(const mrpt::obs::CActionCollection* action);
+  std::optional<LocalizationFrame> update(const mrpt::obs::CSensoryFrame& observations);
+  Used usable(const mrpt::obs::CSensoryFrame& frame);
+  bool isUsable(const mrpt::obs::CActionCollection* action);
+  std::optional<LocalizationFrame> addOdometry(const mrpt::obs::CObservationOdometry& reading);
+  mrpt::obs::CActionCollection actionOf(const PlanarPose& movement) const;
+  void allowForStoppedOdometry(double time);
+  LocalizationFrame report(double time);
+  UpdateEvidence evidence(const Used& used, const PoseCluster& cluster);
+  void countSteadyFrames(const PoseCluster& cluster, UpdateEvidence& evidence);
+  void recover(double time);
+
+  LocalizerOptions options_;
   mrpt::maps::CMultiMetricMap::Ptr maps_;
+  PoseRegion anywhere_;
   PlanarMonteCarlo filter_;
-  std::optional<PlanarPose> odometry_;  ///< latest reading
-  PlanarPose moved_;                    ///< by the odometry, since the particles were moved
+  HealthMonitor monitor_;
+  OdometryTrack odometry_;
+  ObservationOrder order_;
+  Random random_;            ///< of the poses that observations are judged by
+  PlanarPose pending_;       ///< movement that the particles have not made yet
+  PlanarPose since_update_;  ///< movement since an observation was used
+  bool update_requested_ = false;
   std::vector<std::string> problems_;
-  int steps_ = 0;
+  int steps_to_skip_ = 0;
   std::optional<PlanarPose> expected_;  ///< the cluster of the last update, moved by the odometry since
   int steady_frames_ = 0;               ///< updates in a row with a narrow cluster where it was expected
-  bool started_ = false;                ///< an observation has been used
+  std::optional<double> updated_at_;    ///< s: when an observation was last used; nothing: the start is there
+  bool odometry_stopped_ = false;
+  std::optional<double> lost_at_;  ///< s
+  bool scattered_nearby_ = false;  ///< since then
 };
 
 }  // namespace vmcl

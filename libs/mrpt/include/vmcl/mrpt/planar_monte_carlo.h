@@ -8,13 +8,23 @@
 #include <span>
 
 #include "vmcl/estimation/estimator.h"
+#include "vmcl/mrpt/odometry_motion_model.h"
 #include "vmcl/mrpt/pose_density.h"
 #include "vmcl/mrpt/pose_region.h"
+#include "vmcl/mrpt/pose_with_covariance.h"
 #include "vmcl/mrpt/recovery_averages.h"
 
 namespace vmcl {
 
+/// AMCL's resampling: with a sample size adapted (KLD) at the resampling, where MRPT adapts it at every prediction.
+struct AmclResampling {
+  int resample_interval = 1;          ///< updates for each resampling
+  bool selective_resampling = false;  ///< only when the effective sample size is below half the particles
+};
+
 struct PlanarMonteCarloOptions {
+  std::optional<OdometryMotionModel> motion_model;  ///< none: each action brings its own noise (MRPT's models)
+  std::optional<AmclResampling> amcl_resampling;    ///< none: MRPT's, by its own options
   double recovery_alpha_slow = 0;        ///< AMCL: decay of the slow average likelihood (e.g. 0.001); 0: no recovery
   double recovery_alpha_fast = 0;        ///< AMCL: decay of the fast one (e.g. 0.1); 0: no recovery
   double injection_share = 0.1;          ///< share of the particles drawn from an image's own estimate; 0: none
@@ -57,8 +67,20 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
                    const ParticleFilterOptions& filter_options, const PlanarMonteCarloOptions& monte_carlo_options,
                    const PoseRegion& anywhere);
 
-  /// Spreads the particles.
+  /// Goes on with another map; the particles stay.
+  void setMap(mrpt::maps::CMultiMetricMap::ConstPtr map, const PoseRegion& anywhere);
+
+  /// Spreads the particles. Throws std::invalid_argument naming a bad number of particles or pose.
   void start(const PoseRegion& region, int particles);
+  void start(const PoseWithCovariance& pose, int particles);
+
+  /// Moves each particle at random, by these standard deviations along each axis (m) and of heading (rad).
+  void diffuse(double position_deviation, double heading_deviation);
+
+  /// Draws a share of the particles, chosen at random, anew: at random distances of about 1 m and 30 deg (each a
+  /// standard deviation) of where a particle was, or anywhere in the map.
+  void scatterNearby(double share);
+  void scatterAnywhere(double share);
 
   /// One step: prediction by the action, injection of the modes, weighing by the observations, resampling. Without an
   /// action the robot has stood still; without a frame there is only the prediction. Throws std::runtime_error when the
@@ -70,6 +92,8 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   double effectiveShare() const { return effective_share_; }
 
  private:
+  template <typename Draw>
+  void drawAll(int particles, Draw&& draw);
   void predict(const mrpt::obs::CActionCollection& action);
   void inject(std::span<const PoseMode> modes);
   void recover();
@@ -78,6 +102,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   PoseDensity density() const;
   void allowForAliasing(std::span<double> log_likelihoods) const;
   void resample();
+  void resampleAdaptively();
   void equalizeWeights();
   void normalize();
 
@@ -94,6 +119,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   Random random_;
   std::vector<char> drawn_anew_;  ///< for each particle, whether the update drew it where the prediction had none
   double effective_share_ = 1;
+  int updates_ = 0;  ///< since the last resampling
 };
 
 }  // namespace vmcl

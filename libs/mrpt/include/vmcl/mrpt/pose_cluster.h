@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPosePDFParticles.h>
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "vmcl/geometry/planar_pose.h"
 
@@ -22,5 +23,10 @@ struct PoseCluster {
 /// The particles within 1 m and 45 deg of the densest place, which is sought by mean shift (flat kernel) from the
 /// heaviest cell of 0.5 m x 0.5 m x 30 deg. Throws std::invalid_argument when there are no particles.
 PoseCluster dominantCluster(const mrpt::poses::CPosePDFParticles& particles);
+
+/// The clusters that hold at least `min_share` of the weight, the heaviest first: each is the dominant one of the
+/// particles that those before it leave. The first is dominantCluster(), whatever its share. Throws
+/// std::invalid_argument when there are no particles.
+std::vector<PoseCluster> poseClusters(const mrpt::poses::CPosePDFParticles& particles, double min_share = 0.02);
 
 }  // namespace vmcl

@@ -37,6 +37,11 @@ class PoseRegion {
 
   PlanarPose draw(Random& random) const;
 
+  /// Whether the position lies within the box, free or not.
+  bool covers(const PlanarPose& pose) const {
+    return pose.x >= box_.min_x && pose.x <= box_.max_x && pose.y >= box_.min_y && pose.y <= box_.max_y;
+  }
+
   /// One over the density: m^2 rad. 0 for a single pose.
   double volume() const { return volume_; }
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vmcl/mrpt/localizer_options.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace vmcl {
+namespace {
+
+void demand(bool valid, const char* key) {
+  if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
+}
+
+}  // namespace
+
+void LocalizedRule::check() const {
+  demand(max_position_deviation > 0 && std::isfinite(max_position_deviation), "max_position_deviation");
+  demand(max_heading_deviation > 0 && std::isfinite(max_heading_deviation), "max_heading_deviation_deg");
+  demand(min_share > 0 && min_share <= 1, "min_share");
+  demand(min_frames >= 1, "min_frames");
+}
+
+LocalizerOptions LocalizerOptions::amcl() {
+  LocalizerOptions options;
+  options.particles_count = 2000;
+  options.update_min_d = 0.25;
+  options.update_min_a = 0.2;
+  options.kld.KLD_minSampleSize = 500;
+  options.kld.KLD_maxSampleSize = 2000;
+  options.kld.KLD_epsilon = 0.05;
+  options.kld.KLD_delta = 0.01;
+  options.kld.KLD_binSize_XY = 0.5;
+  options.kld.KLD_binSize_PHI = 10 * degree;
+  options.monte_carlo.motion_model.emplace();
+  options.monte_carlo.amcl_resampling.emplace();
+  return options;
+}
+
+void LocalizerOptions::check() const {
+  demand(particles_count >= 1, "particles_count");
+  demand(update_min_d >= 0 && std::isfinite(update_min_d), "update_min_d");
+  demand(update_min_a >= 0 && std::isfinite(update_min_a), "update_min_a");
+  monte_carlo.check();
+  localized.check();
+  health.check();
+}
+
+}  // namespace vmcl
