@@ -7,6 +7,7 @@
 
 #include "choice_option.h"
 #include "coverage.h"
+#include "health_report.h"
 #include "problem_report.h"
 #include "replay.h"
 #include "verbs.h"
@@ -24,6 +25,7 @@ struct Request {
   std::filesystem::path out;
   std::filesystem::path ground_truth;
   std::string start;
+  std::filesystem::path initial_pose;
   std::vector<double> kidnapping;  ///< at, skip; or empty
   uint64_t seed = 1;
   int threads = 1;
@@ -78,6 +80,9 @@ void writeAll(const std::filesystem::path& directory, bool tables_only, const Lo
   writeFrames(directory / "frames.csv", run.frames);
   writeTiming(directory / "timing.csv", run.frames);
   writeSummary(directory / "summary.json", run);
+  writeHealth(directory / "health.csv", run.frames);
+  writeHealthSummary(directory / "health.json", run.frames);
+  savePose(directory / "pose.yaml", localizer.estimate());
   if (tables_only) return;
   writeScene(directory / "scene.3Dscene", run, localizer);
   drawPath(directory / "path", run, localizer.maps());
@@ -89,7 +94,11 @@ int localize(const Request& request) {
   LocalizationConfig config = loadLocalizationConfig(request.config, request.maps, request.rawlog, request.changes);
   config.monte_carlo.seed = request.seed;
   config.monte_carlo.threads = request.threads;
-  config.start_anywhere = request.start == "global";
+  if (!request.start.empty()) {
+    config.start_anywhere = request.start == "global";
+    config.initial_pose.reset();
+  }
+  if (!request.initial_pose.empty()) config.initial_pose = loadPose(request.initial_pose);
   LocalizationRun run;
   if (!request.ground_truth.empty()) run.ground_truth = readTumTrajectory(request.ground_truth);
   Replay plan;
@@ -109,6 +118,7 @@ int localize(const Request& request) {
   problems.print("localize");
   printMaps(request, config);
   printSummary(run);
+  printHealth(std::cout, run.frames);
   if (!request.out.empty()) writeAll(request.out, request.tables_only, run, localizer);
   return problems.empty() ? exit_done : exit_some_input_bad;
 }
@@ -122,7 +132,8 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--rawlog", request->rawlog, "Log to localize, instead of the ini's rawlog_file");
   verb->add_option("--map", request->maps, "Map instead of the ini's: .vmap, .simplemap or .gridmap; may be repeated");
   verb->add_option("--out", request->out,
-                   "Directory for trajectory.tum, frames.csv, summary.json, scene.3Dscene, path.svg, path.png and "
+                   "Directory for trajectory.tum, frames.csv, summary.json, health.csv, health.json, pose.yaml, "
+                   "scene.3Dscene, path.svg, path.png and "
                    "timing.csv (the only one that differs between runs of one seed)");
   verb->add_flag("--tables-only", request->tables_only, "Leave out scene and pictures");
   verb->add_option("--groundtruth", request->ground_truth, "True poses in the map, TUM format, to compare with");
@@ -135,6 +146,9 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
           "Instead of the ini's: global (anywhere in the maps) or given (within 0.2 m and 10 deg of the ground "
           "truth, when it sets in)")
       ->check(CLI::IsMember({"global", "given"}));
+  verb->add_option("--initial-pose", request->initial_pose,
+                   "Start about the pose in this file, as the pose.yaml of an earlier run: where that ended")
+      ->excludes("--start");
   verb->add_option(
           "--kidnap", request->kidnapping,
           "AT SKIP: carry the robot off AT s after the log's start: the next SKIP s are left out, odometry too")

@@ -22,8 +22,12 @@ class LocalizeCameraTest(CommandTest):
         self.assertEqual(truth['false_accepts'], 0)
         self.assertLess(truth['position_error_after_convergence']['rmse'], 0.1)
         self.assertEqual(sorted(f.name for f in self.path('out').iterdir()),
-                         ['frames.csv', 'path.png', 'path.svg', 'scene.3Dscene', 'summary.json', 'timing.csv',
-                          'trajectory.tum'])
+                         ['frames.csv', 'health.csv', 'health.json', 'path.png', 'path.svg', 'pose.yaml',
+                          'scene.3Dscene', 'summary.json', 'timing.csv', 'trajectory.tum'])
+        health = json.loads(self.path('out/health.json').read_text())
+        self.assertEqual(health['final'], 'tracking')
+        self.assertEqual(health['became_lost_at'], [])
+        self.assertEqual(sum(health['updates'].values()), summary['frames'])
 
     def test_same_seed_same_bytes_for_any_number_of_threads(self):
         outputs = []
@@ -34,6 +38,15 @@ class LocalizeCameraTest(CommandTest):
             self.assertEqual(sorted(output), sorted(outputs[0]))
             for name, content in output.items():
                 self.assertEqual(content, outputs[0][name], name)
+
+    def test_goes_on_where_an_earlier_run_ended(self):
+        self.write('pose.yaml', 'robot_in_map: [1000, 0, 0]\ncovariance: [0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01]\n')
+        off_the_map = self.vmcl(*self.localize(), '--initial-pose', 'pose.yaml')
+        self.assert_complaint(off_the_map, SOME_INPUT_BAD, 'the initial pose is off the map')
+        self.succeed(*self.localize(out='once'))
+        self.succeed(*self.localize(), '--initial-pose', 'once/pose.yaml')
+        self.write('broken.yaml', 'robot_in_map: [1]\n')
+        self.assert_refused([*self.localize(), '--initial-pose', 'broken.yaml'], 'broken.yaml', 'robot_in_map')
 
     def test_broken_maps(self):
         good = MAP.read_bytes()
