@@ -7,7 +7,7 @@
 namespace vmcl {
 namespace {
 
-LocalizerOptions options() {
+LocalizerOptions amclOptions() {
   LocalizerOptions amcl = LocalizerOptions::amcl();
   for (double* alpha : {&amcl.monte_carlo.motion_model->alpha1, &amcl.monte_carlo.motion_model->alpha2,
                         &amcl.monte_carlo.motion_model->alpha3, &amcl.monte_carlo.motion_model->alpha4})
@@ -35,7 +35,7 @@ mrpt::obs::CSensoryFrame seenAt(double time) {
 
 class AmclWorkflow : public ::testing::Test {
  protected:
-  void start(const std::shared_ptr<FakeMap>& map, const LocalizerOptions& how = options()) {
+  void start(const std::shared_ptr<FakeMap>& map, const LocalizerOptions& how = amclOptions()) {
     localizer_.emplace(how);
     localizer_->setMap(mapsWith(map), box);
     localizer_->setInitialPose(near({0, 0, 0}));
@@ -50,7 +50,7 @@ class AmclWorkflow : public ::testing::Test {
 };
 
 TEST_F(AmclWorkflow, NothingHappensBeforeAStart) {
-  localizer_.emplace(options());
+  localizer_.emplace(amclOptions());
   EXPECT_FALSE(move({}));
   localizer_->setMap(mapsWith(flatMap()), box);
   EXPECT_FALSE(move({}));
@@ -103,7 +103,7 @@ TEST_F(AmclWorkflow, NoMotionUpdateOnRequest) {
 
 /// Noise that grows with the square of the way must not depend on how often the movement is read.
 TEST_F(AmclWorkflow, OdometryNoiseDoesNotDependOnItsRate) {
-  LocalizerOptions noisy = options();
+  LocalizerOptions noisy = amclOptions();
   noisy.monte_carlo.motion_model->alpha3 = 0.01;  // 0.1 m on 1 m
   noisy.update_min_d = 0.95;
   const auto deviation = [&](int steps) {
@@ -127,7 +127,7 @@ double effectiveShareAfter(const LocalizationFrame& frame, const Localizer& loca
 }
 
 TEST_F(AmclWorkflow, ResampleInterval) {
-  LocalizerOptions every_third = options();
+  LocalizerOptions every_third = amclOptions();
   every_third.monte_carlo.amcl_resampling->resample_interval = 3;
   every_third.update_min_d = every_third.update_min_a = 0;
   start(mapThatFitsAt(0.2, 0), every_third);
@@ -138,7 +138,7 @@ TEST_F(AmclWorkflow, ResampleInterval) {
 }
 
 TEST_F(AmclWorkflow, SelectiveResampling) {
-  LocalizerOptions selective = options();
+  LocalizerOptions selective = amclOptions();
   selective.monte_carlo.amcl_resampling->selective_resampling = true;
   selective.update_min_d = selective.update_min_a = 0;
   start(mapThatFitsAt(0.05, 0), selective);
@@ -149,7 +149,7 @@ TEST_F(AmclWorkflow, SelectiveResampling) {
 }
 
 TEST_F(AmclWorkflow, ParticlesBetweenMinAndMax) {
-  LocalizerOptions few = options();
+  LocalizerOptions few = amclOptions();
   few.kld.KLD_minSampleSize = 200;
   start(mapThatFitsAt(0, 0), few);
   localizer_->globalLocalization();
@@ -207,7 +207,7 @@ TEST_F(AmclWorkflow, ClustersAndTheBestOnesCovariance) {
 
 TEST_F(AmclWorkflow, RefusesBadOptions) {
   const auto refuses = [](auto&& change) {
-    LocalizerOptions bad = options();
+    LocalizerOptions bad = amclOptions();
     change(bad);
     EXPECT_THROW(Localizer{bad}, std::invalid_argument);
   };

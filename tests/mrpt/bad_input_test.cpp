@@ -43,7 +43,7 @@ class BadInput : public ::testing::Test {
 
   double error() const { return std::abs(localizer_->estimate().robot_in_map.x - 1 - travelled_); }
 
-  LocalizationConfig config_ = ::vmcl::tracking();
+  LocalizationConfig config_ = trackingConfig();
   double time_ = 100;
   double travelled_ = 0;
   bool dark_ = false;

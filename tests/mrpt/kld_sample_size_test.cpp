@@ -6,7 +6,7 @@
 namespace vmcl {
 namespace {
 
-mrpt::slam::TKLDParams options() {
+mrpt::slam::TKLDParams kldOptions() {
   mrpt::slam::TKLDParams kld;
   kld.KLD_minSampleSize = 10;
   kld.KLD_maxSampleSize = 100000;
@@ -19,16 +19,16 @@ mrpt::slam::TKLDParams options() {
 
 /// chi-square quantile / (2 epsilon), with quantiles from tables: the probability is one, not a normal quantile.
 TEST(KldSampleSize, AgreesWithChiSquareTables) {
-  const KldSampleSize certain(options());
+  const KldSampleSize certain(kldOptions());
   EXPECT_NEAR(static_cast<double>(certain.needed(11)), 23.209 / 0.1, 3);   // 10 degrees of freedom, 0.99
   EXPECT_NEAR(static_cast<double>(certain.needed(101)), 135.81 / 0.1, 3);  // 100
-  auto likely = options();
+  auto likely = kldOptions();
   likely.KLD_delta = 0.05;
   EXPECT_NEAR(static_cast<double>(KldSampleSize(likely).needed(51)), 67.505 / 0.1, 3);  // 50, 0.95
 }
 
 TEST(KldSampleSize, StaysBetweenItsLimits) {
-  auto narrow = options();
+  auto narrow = kldOptions();
   narrow.KLD_minSampleSize = 300;
   narrow.KLD_maxSampleSize = 1000;
   const KldSampleSize size(narrow);
@@ -38,7 +38,7 @@ TEST(KldSampleSize, StaysBetweenItsLimits) {
 }
 
 TEST(KldSampleSize, CountsEachBinOnce) {
-  KldSampleSize size(options());
+  KldSampleSize size(kldOptions());
   EXPECT_EQ(size.add({0.1, 0.1, 0}), 10U);
   EXPECT_EQ(size.add({0.2, -0.1, 0.01}), 10U);
   EXPECT_EQ(size.add({0.1, 0.1, 2 * std::numbers::pi}), 10U);
@@ -48,7 +48,7 @@ TEST(KldSampleSize, CountsEachBinOnce) {
 
 TEST(KldSampleSize, RefusesBadOptions) {
   const auto refuses = [](auto&& change) {
-    auto kld = options();
+    auto kld = kldOptions();
     change(kld);
     EXPECT_THROW(KldSampleSize{kld}, std::invalid_argument);
   };

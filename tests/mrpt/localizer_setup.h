@@ -18,7 +18,7 @@ inline mrpt::maps::CMultiMetricMap::Ptr mapsWith(const std::shared_ptr<FakeMap>&
 }
 
 /// All particles at (1, 2, 0), and little noise.
-inline LocalizationConfig tracking() {
+inline LocalizationConfig trackingConfig() {
   LocalizationConfig config;
   config.particles_count = 200;
   config.start = {1, 1, 2, 2, 0, 0};

@@ -13,7 +13,7 @@ namespace {
 using mrpt::obs::CObservation;
 
 TEST(Localizer, FollowsTheOdometryOfSingleObservations) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   EXPECT_FALSE(localizer.step(nullptr, nullptr, odometry(5)));
   EXPECT_FALSE(localizer.step(nullptr, nullptr, odometry(6)));  // before the first observation: the start is there
   const auto first = localizer.step(nullptr, nullptr, commentAt(10));
@@ -29,7 +29,7 @@ TEST(Localizer, FollowsTheOdometryOfSingleObservations) {
 }
 
 TEST(Localizer, KeepsTheOdometryAcrossObservationsOfNoUse) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   localizer.step(nullptr, nullptr, odometry(0));
   localizer.step(nullptr, nullptr, commentAt(0));
   localizer.step(nullptr, nullptr, odometry(0.5));
@@ -40,7 +40,7 @@ TEST(Localizer, KeepsTheOdometryAcrossObservationsOfNoUse) {
 }
 
 TEST(Localizer, TakesPairsOfActionsAndFrames) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   const auto action = std::make_shared<mrpt::obs::CActionCollection>(movement(0.3, 0));
   const auto first = localizer.step(action, someFrame(), nullptr);  // the start is where the first frame was taken
   ASSERT_TRUE(first);
@@ -49,7 +49,7 @@ TEST(Localizer, TakesPairsOfActionsAndFrames) {
 }
 
 TEST(Localizer, SkipsTheOffset) {
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.rawlog_offset = 2;
   Localizer localizer(config, mapsWith(flatMap()));
   EXPECT_FALSE(localizer.step(nullptr, nullptr, commentAt(0)));
@@ -58,10 +58,10 @@ TEST(Localizer, SkipsTheOffset) {
 }
 
 TEST(Localizer, IsLocalizedAfterSharpFramesInARow) {
-  Localizer sharp(tracking(), mapsWith(flatMap()));
+  Localizer sharp(trackingConfig(), mapsWith(flatMap()));
   EXPECT_FALSE(sharp.step(nullptr, nullptr, commentAt(0))->localized);
   EXPECT_TRUE(sharp.step(nullptr, nullptr, commentAt(1))->localized);
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.start = {0, 5, 0, 5};
   Localizer spread(config, mapsWith(flatMap()));
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(spread.step(nullptr, nullptr, commentAt(i))->localized);
@@ -69,7 +69,7 @@ TEST(Localizer, IsLocalizedAfterSharpFramesInARow) {
 
 // Two places look alike but for one step, which carries the cluster from one to the other.
 TEST(Localizer, IsNotLocalizedRightAfterAJump) {
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.start = {1, 3, 2, 2, 0, 0};
   config.particles_count = 2000;
   config.localized.max_position_deviation = 0.5;
@@ -90,7 +90,7 @@ TEST(Localizer, IsNotLocalizedRightAfterAJump) {
 }
 
 TEST(Localizer, DoesNotFollowTheOdometryThroughAKidnapping) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   localizer.step(nullptr, nullptr, odometry(0));
   localizer.step(nullptr, nullptr, commentAt(0));
   localizer.step(nullptr, nullptr, odometry(0.5));
@@ -101,7 +101,7 @@ TEST(Localizer, DoesNotFollowTheOdometryThroughAKidnapping) {
 }
 
 TEST(Localizer, ByOdometryOnlyItWeighsNothing) {
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.odometry_only = true;
   const auto strict = std::make_shared<FakeMap>([](const PlanarPose& pose) { return pose.x > 1 ? -100 : 0; });
   Localizer localizer(config, mapsWith(strict));
@@ -116,7 +116,7 @@ TEST(Localizer, ByOdometryOnlyItWeighsNothing) {
 
 // The map tells of no more room than the box where the particles would start, but of any heading.
 TEST(Localizer, MayStartAnywhereInTheMap) {
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.start_anywhere = true;
   const Localizer localizer(config, mapsWith(flatMap()));
   double greatest = 0;
@@ -127,7 +127,7 @@ TEST(Localizer, MayStartAnywhereInTheMap) {
 
 TEST(Localizer, SameSeedSameFrames) {
   const auto run = [] {
-    Localizer localizer(tracking(), mapsWith(flatMap()));
+    Localizer localizer(trackingConfig(), mapsWith(flatMap()));
     for (int i = 0; i < 5; ++i) {
       localizer.step(nullptr, nullptr, odometry(0.1 * i));
       localizer.step(nullptr, nullptr, commentAt(i));
@@ -148,7 +148,7 @@ mrpt::obs::CActionCollection::Ptr movementInSpace(double x) {
 
 // A cluster that moves otherwise than the odometry says never counts as localized.
 TEST(Localizer, FollowsMovementsInSpace) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   for (int i = 0; i < 3; ++i) {
     const auto result = localizer.step(movementInSpace(1), someFrame(), nullptr);
     EXPECT_NEAR(result->cluster.robot_in_map.x, 1 + i, 0.02);
@@ -157,7 +157,7 @@ TEST(Localizer, FollowsMovementsInSpace) {
 }
 
 TEST(Localizer, LeavesOutMovementsThatAreNone) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   localizer.step(nullptr, someFrame(), nullptr);
   for (const double x : {1e300, 1e4, std::nan("")})
     for (const auto& action : {movementInSpace(x), std::make_shared<mrpt::obs::CActionCollection>(movement(x, 0))}) {
@@ -167,7 +167,7 @@ TEST(Localizer, LeavesOutMovementsThatAreNone) {
 }
 
 TEST(Localizer, LeavesOutJumpsOfTheOdometry) {
-  Localizer localizer(tracking(), mapsWith(flatMap()));
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
   localizer.step(nullptr, nullptr, odometry(0));
   localizer.step(nullptr, nullptr, commentAt(0));
   localizer.step(nullptr, nullptr, odometry(0.25));
@@ -181,7 +181,7 @@ TEST(Localizer, LeavesOutJumpsOfTheOdometry) {
 
 TEST(Localizer, ItsSeedIsThatOfTheSamplesDrawnFromImages) {
   const auto camera = std::make_shared<FakeCameraMap>([](const PlanarPose&) { return 0; });
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.monte_carlo.seed = 7;
   Localizer(config, mapsWith(camera)).step(nullptr, nullptr, commentAt(0));
   EXPECT_EQ(camera->seeds, std::vector<uint64_t>{7});
@@ -197,14 +197,14 @@ class BrokenMap : public FakeCameraMap {
 };
 
 TEST(Localizer, NamesBrokenObservationsAndGoesOn) {
-  Localizer localizer(tracking(), mapsWith(std::make_shared<BrokenMap>()));
+  Localizer localizer(trackingConfig(), mapsWith(std::make_shared<BrokenMap>()));
   EXPECT_FALSE(localizer.step(nullptr, nullptr, commentAt(0)));
   EXPECT_EQ(localizer.takeProblems(), std::vector<std::string>{"camera 'front': no image"});
   EXPECT_TRUE(localizer.takeProblems().empty());
 }
 
 TEST(Localizer, FreeSpaceNeedsAGrid) {
-  LocalizationConfig config = tracking();
+  LocalizationConfig config = trackingConfig();
   config.start_in_free_space = true;
   EXPECT_THROW(Localizer(config, mapsWith(flatMap())), std::invalid_argument);
 }

@@ -10,7 +10,7 @@
 namespace vmcl {
 namespace {
 
-constexpr const char* name = "amcl";
+constexpr const char* amcl_section = "amcl";
 
 void readMotionModel(IniSection& section, OdometryMotionModel& model) {
   using Drive = OdometryMotionModel::Drive;
@@ -64,11 +64,11 @@ void readInitialPose(IniSection& section, LocalizationConfig& config) {
 
 }  // namespace
 
-bool hasAmclSection(const mrpt::config::CConfigFileBase& ini) { return ini.sectionExists(name); }
+bool hasAmclSection(const mrpt::config::CConfigFileBase& ini) { return ini.sectionExists(amcl_section); }
 
 void readAmclSection(const mrpt::config::CConfigFileBase& ini, LocalizationConfig& config) try {
   static_cast<LocalizerOptions&>(config) = LocalizerOptions::amcl();
-  IniSection section(ini, name);
+  IniSection section(ini, amcl_section);
   readMotionModel(section, *config.monte_carlo.motion_model);
   readSampleSize(section, config);
   readInitialPose(section, config);
@@ -82,7 +82,7 @@ void readAmclSection(const mrpt::config::CConfigFileBase& ini, LocalizationConfi
   KldSampleSize{config.kld};
   config.check();
 } catch (const std::invalid_argument& error) {
-  const std::string message = error.what(), place = std::string("[") + name + "] ";
+  const std::string message = error.what(), place = std::string("[") + amcl_section + "] ";
   throw std::invalid_argument(message.starts_with(place) ? message : place + message);
 }
 

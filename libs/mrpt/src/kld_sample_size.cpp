@@ -13,10 +13,6 @@ namespace {
 
 constexpr int most_particles = 10'000'000;
 
-void demand(bool valid, const char* key) {
-  if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
-}
-
 long binOf(double coordinate, double size) {
   constexpr double last = 0x1p53;  // farther bins fit into no long
   return std::lround(std::clamp(coordinate / size, -last, last));
@@ -26,6 +22,9 @@ long binOf(double coordinate, double size) {
 
 KldSampleSize::KldSampleSize(const mrpt::slam::TKLDParams& options)
     : options_(options), needed_(options.KLD_minSampleSize) {
+  const auto demand = [](bool valid, const char* key) {
+    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
+  };
   demand(options.KLD_minSampleSize >= 1 && options.KLD_minSampleSize <= most_particles, "KLD_minSampleSize");
   demand(options.KLD_maxSampleSize >= options.KLD_minSampleSize && options.KLD_maxSampleSize <= most_particles,
          "KLD_maxSampleSize");

@@ -13,7 +13,7 @@
 namespace vmcl {
 namespace {
 
-using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
 }  // namespace
 
@@ -21,12 +21,12 @@ void PoseWithCovariance::check() const {
   PoseBox{robot_in_map.x, robot_in_map.x, robot_in_map.y, robot_in_map.y, robot_in_map.phi, robot_in_map.phi}.check();
   const double scale = covariance.cwiseAbs().maxCoeff();
   if (!covariance.allFinite() || !covariance.isApprox(covariance.transpose(), 1e-6) ||
-      Solver(covariance).eigenvalues().minCoeff() < -1e-6 * scale)
+      EigenSolver(covariance).eigenvalues().minCoeff() < -1e-6 * scale)
     throw std::invalid_argument("the covariance is not symmetric positive semidefinite");
 }
 
 std::function<PlanarPose()> PoseWithCovariance::sampler(Random& random) const {
-  const Solver solver(covariance);
+  const EigenSolver solver(covariance);
   const Eigen::Matrix3d root =
       solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal().toDenseMatrix();
   return [mean = robot_in_map, root, &random] {

@@ -17,9 +17,11 @@ namespace vmcl {
 /// A localization experiment as pf-localization's ini describes it, with our own section [vmcl]:
 ///
 ///     recovery_alpha_slow, recovery_alpha_fast, injection_share, kidnapping_probability, aliasing_probability
+///     update_min_d, update_min_a, degraded_after, lost_after, lost_reset_after
 ///     max_position_deviation, max_heading_deviation_deg, min_share, min_frames
 ///
-/// (PlanarMonteCarloOptions and LocalizedRule).
+/// (PlanarMonteCarloOptions, LocalizerOptions, HealthOptions and LocalizedRule), and a section [amcl] with AMCL's
+/// parameters in place of [KLD_options], [PF_options], [DummyOdometryParams] and particles_count (doc/parameters.md).
 ///
 /// Of the stock sections these are read: [KLD_options] and [PF_options] whole, [DummyOdometryParams] minStdXY and
 /// minStdPHI, [MetricMap] and the sections of its maps whole, [LocalizationExperiment] map_file, rawlog_file,
