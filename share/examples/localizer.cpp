@@ -47,7 +47,10 @@ int main() {
   auto maps = mrpt::maps::CMultiMetricMap::Create();
   maps->maps.push_back(grid);
 
-  vmcl::Localizer localizer(vmcl::LocalizerOptions::amcl());
+  vmcl::LocalizerOptions options = vmcl::LocalizerOptions::amcl();
+  auto& odometry = *options.monte_carlo.motion_model;
+  odometry.alpha1 = odometry.alpha2 = odometry.alpha3 = odometry.alpha4 = 0.01;  // AMCL's 0.2 is for a poor odometry
+  vmcl::Localizer localizer(options);
   localizer.setMap(maps);
   localizer.globalLocalization();
 

@@ -237,6 +237,7 @@ UpdateEvidence Localizer::evidence(const Used& used, const PoseCluster& cluster)
 /// One deceptive image can carry a whole cluster elsewhere: a robot that jumps is not localized.
 void Localizer::countSteadyFrames(const PoseCluster& cluster, UpdateEvidence& evidence) {
   constexpr double scattered_deviation = 0.6, scattered_share = 0.5;  // m: of a cluster's radius of 1 m
+  constexpr double other_position = 1, other_heading = 45 * degree;   // to another cluster
   const LocalizedRule& rule = options_.localized;
   const bool narrow = cluster.positionDeviation() <= rule.max_position_deviation &&
                       cluster.headingDeviation() <= rule.max_heading_deviation && cluster.share >= rule.min_share;
@@ -247,7 +248,7 @@ void Localizer::countSteadyFrames(const PoseCluster& cluster, UpdateEvidence& ev
   steady_frames_ = !narrow ? 0 : as_expected ? steady_frames_ + 1 : 1;
   expected_ = cluster.robot_in_map;
   evidence.steady = steady_frames_ >= rule.min_frames;
-  evidence.jumped = narrow && !as_expected;
+  evidence.jumped = narrow && (jump.head<2>().norm() > other_position || std::abs(jump.z()) > other_heading);
   evidence.scattered = cluster.positionDeviation() > scattered_deviation || cluster.share < scattered_share;
 }
 

@@ -152,14 +152,6 @@ void PlanarMonteCarlo::update(const mrpt::obs::CActionCollection* action, const 
   resample();
 }
 
-/// Weights that sum to one; MRPT's normalizeWeights() makes the largest one.
-void PlanarMonteCarlo::normalize() {
-  normalizeWeights();
-  double sum = 0;
-  for (const auto& particle : m_particles) sum += std::exp(particle.log_w);
-  for (auto& particle : m_particles) particle.log_w -= std::log(sum);
-}
-
 void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
   const auto movement = movementOf(&action);
   if (!movement) return;
@@ -171,14 +163,6 @@ void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
   }
   for (const auto& particle : m_particles)
     if (!isFinite(planarPose(particle.d))) throw std::runtime_error("a movement whose noise is not finite");
-  normalize();
-}
-
-/// What is replaced is drawn at random, so it must not matter which particle it is.
-void PlanarMonteCarlo::equalizeWeights() {
-  const auto is_first = [&](const auto& particle) { return particle.log_w == m_particles.front().log_w; };
-  if (std::all_of(m_particles.begin(), m_particles.end(), is_first)) return;
-  performResampling(filter_options_, m_particles.size());
   normalize();
 }
 
@@ -284,38 +268,6 @@ void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
   }
   for (std::size_t i = 0; i < poses.size(); ++i)
     m_particles[i].log_w += (of_others[i] + of_images[i]) * filter_options_.powFactor;
-  normalize();
-}
-
-void PlanarMonteCarlo::resample() {
-  effective_share_ = ESS();
-  if (const auto& amcl = monte_carlo_options_.amcl_resampling) {
-    constexpr double needs_resampling = 0.5;
-    if (++updates_ < amcl->resample_interval) return;
-    if (!amcl->selective_resampling || effective_share_ < needs_resampling) resampleAdaptively();
-    updates_ = 0;
-    return;
-  }
-  if (filter_options_.adaptiveSampleSize || effective_share_ >= filter_options_.BETA) return;
-  // The count is given because performResampling equalizes the weights of that many particles, of none by default.
-  performResampling(filter_options_, m_particles.size());
-  normalize();
-}
-
-/// Draws particles until there are as many as the places where they lie ask for.
-void PlanarMonteCarlo::resampleAdaptively() {
-  std::vector<double> cumulative;
-  double sum = 0;
-  for (const auto& particle : m_particles) cumulative.push_back(sum += std::exp(particle.log_w));
-  KldSampleSize size(options.KLD_params);
-  CParticleList drawn;
-  for (std::size_t needed = 1; drawn.size() < needed;) {
-    const auto chosen = std::upper_bound(cumulative.begin(), std::prev(cumulative.end()), sum * random_.uniform());
-    drawn.push_back(m_particles[static_cast<std::size_t>(chosen - cumulative.begin())]);
-    drawn.back().log_w = 0;
-    needed = size.add(planarPose(drawn.back().d));
-  }
-  m_particles = std::move(drawn);
   normalize();
 }
 

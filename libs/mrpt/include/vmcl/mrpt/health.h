@@ -35,7 +35,7 @@ struct HealthOptions {
 struct UpdateEvidence {
   double time = 0;            ///< s
   bool steady = false;        ///< a narrow cluster that has moved as the odometry says, by LocalizedRule
-  bool jumped = false;        ///< a narrow cluster, but elsewhere than the one before moved by the odometry
+  bool jumped = false;        ///< a narrow cluster over 1 m or 45 deg from the one before moved by the odometry
   bool scattered = false;     ///< no cluster tells the pose to a metre
   bool blind_motion = false;  ///< the odometry has stopped
   int testable = 0;           ///< observations that can tell poses apart
