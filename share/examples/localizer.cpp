@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The filter as a library: a robot drives about a room that it has a map of, and finds out where it is with AMCL's
-// options. A node for ROS or a module for MOLA does the same with its own map, odometry and observations; for a camera
-// the map is a vmcl::VisualKeyframeMap and the observations are CObservationImage.
+// The filter as a library: a robot drives about a room that it has a map of, from about where it is told it starts,
+// with AMCL's options. A node for ROS or a module for MOLA does the same with its own map, odometry and observations;
+// for a camera the map is a vmcl::VisualKeyframeMap and the observations are CObservationImage.
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <iostream>
 
@@ -52,10 +53,10 @@ int main() {
   odometry.alpha1 = odometry.alpha2 = odometry.alpha3 = odometry.alpha4 = 0.01;  // AMCL's 0.2 is for a poor odometry
   vmcl::Localizer localizer(options);
   localizer.setMap(maps);
-  localizer.globalLocalization();
+  localizer.setInitialPose({{2.8, 1.1, 0.1}, 0.04 * Eigen::Matrix3d::Identity()});
 
-  vmcl::PlanarPose truth{1, 1, 0};
-  const vmcl::PlanarPose movement{0.3, 0, 0.15};  // as the odometry tells it: round in a circle
+  vmcl::PlanarPose truth{3, 1, 0};
+  const vmcl::PlanarPose movement{0.3, 0, 0.2};  // as the odometry tells it: round in a circle
   for (int i = 0; i < 40; ++i) {
     mrpt::obs::CSensoryFrame observations;
     observations.insert(scanFrom(*grid, truth));
