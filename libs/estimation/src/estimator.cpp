@@ -19,6 +19,7 @@ void EstimatorOptions::check() const {
   positive("iterations", iterations);
   positive("refined", refined);
   positive("max_modes", max_modes);
+  if (!std::isfinite(known_place_log_odds)) throw std::invalid_argument("known_place_log_odds must be finite");
   likelihood.check();
   plane.check();
 }
@@ -36,10 +37,10 @@ double logEvidence(const RefinedPose& refined) {
 
 /// Whether the robot is rather here than nowhere. The best of many poses always fits some outliers, and a share of
 /// inliers fitted to them makes much of it: so believe in one other than the options' only if the evidence is strong.
-bool isBetterThanChance(const RefinedPose& refined, const PoseLikelihood& as_expected) {
-  constexpr double log_odds_of_a_known_place = 3, log_odds_of_another_share = -5;
+bool isBetterThanChance(const RefinedPose& refined, const PoseLikelihood& as_expected, double known_place_log_odds) {
+  constexpr double log_odds_of_another_share = -5;
   const double expected = logEvidence(refined) - refined.log_likelihood + as_expected(refined.rigid());
-  return std::max(expected, logEvidence(refined) + log_odds_of_another_share) + log_odds_of_a_known_place > 0;
+  return std::max(expected, logEvidence(refined) + log_odds_of_another_share) + known_place_log_odds > 0;
 }
 
 struct RefinedHypothesis {
@@ -201,7 +202,9 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   const PoseRefiner refiner(likelihood, options.plane);
   std::vector<RefinedHypothesis> peaks = refined(problem, refiner, summits);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
-  std::erase_if(peaks, [&](const RefinedHypothesis& peak) { return !isBetterThanChance(peak.pose, first_guess); });
+  std::erase_if(peaks, [&](const RefinedHypothesis& peak) {
+    return !isBetterThanChance(peak.pose, first_guess, options.known_place_log_odds);
+  });
   if (peaks.empty()) return noPose(NoPose::no_better_than_chance);
   PoseEstimate estimate;
   for (const auto& [pose, solver] : peaks)

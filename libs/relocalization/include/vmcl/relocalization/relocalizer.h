@@ -18,8 +18,8 @@ struct RelocalizerOptions {
   double reliable_depth = 10;    ///< landmarks farther from the reference than this (m) give 2D-2D matches
   double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
                                  ///< than the paper's 5 m, since each point carries its covariance
-  EstimatorOptions estimator{
-      .plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}};  ///< floors and tyres give a little
+  /// Floors and tyres give a little, and place recognition may name places where the robot is not.
+  EstimatorOptions estimator{.plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .known_place_log_odds = -3};
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
