@@ -69,16 +69,16 @@ TEST(Estimator, SaysWhyThereIsNoPose) {
 // 10,000.
 TEST(Estimator, PureOutliersSeldomGiveAPose) {
   Random random(54);
-  EstimatorOptions unknown_place;
-  unknown_place.known_place_log_odds = -3;
-  int found = 0, found_unknown = 0;
+  EstimatorOptions unlikely_place;
+  unlikely_place.in_sight_log_odds = -3;
+  int found = 0, found_unlikely = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Scene scene = randomScene(random, {.matches = 60, .outlier_rate = 1});
     found += estimatePose(scene.problem, {}).found();
-    found_unknown += estimatePose(scene.problem, unknown_place).found();
+    found_unlikely += estimatePose(scene.problem, unlikely_place).found();
   }
   EXPECT_LE(found, 8);
-  EXPECT_LE(found_unknown, 3);
+  EXPECT_LE(found_unlikely, 3);
 }
 
 // Three rays of two references fix the pose without any depth. All of 600 such problems were solved on other seeds,

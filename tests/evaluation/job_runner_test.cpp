@@ -128,7 +128,6 @@ TEST_F(JobRunnerTest, OnlyOneFillsADirectoryAlone) {
     const DirectoryLock one(path("out"), Kind::shared), other(path("out"), Kind::shared);
     EXPECT_THROW(DirectoryLock(path("out"), Kind::alone), std::runtime_error);
   }
-  EXPECT_TRUE(fs::is_empty(path("out")));
   {
     const DirectoryLock alone(path("out"), Kind::alone);
     EXPECT_THROW(DirectoryLock(path("out"), Kind::shared), std::runtime_error);

@@ -19,7 +19,7 @@ void EstimatorOptions::check() const {
   positive("iterations", iterations);
   positive("refined", refined);
   positive("max_modes", max_modes);
-  if (!std::isfinite(known_place_log_odds)) throw std::invalid_argument("known_place_log_odds must be finite");
+  if (!std::isfinite(in_sight_log_odds)) throw std::invalid_argument("in_sight_log_odds must be finite");
   likelihood.check();
   plane.check();
 }
@@ -37,10 +37,10 @@ double logEvidence(const RefinedPose& refined) {
 
 /// Whether the robot is rather here than nowhere. The best of many poses always fits some outliers, and a share of
 /// inliers fitted to them makes much of it: so believe in one other than the options' only if the evidence is strong.
-bool isBetterThanChance(const RefinedPose& refined, const PoseLikelihood& as_expected, double known_place_log_odds) {
+bool isBetterThanChance(const RefinedPose& refined, const PoseLikelihood& as_expected, double in_sight_log_odds) {
   constexpr double log_odds_of_another_share = -5;
   const double expected = logEvidence(refined) - refined.log_likelihood + as_expected(refined.rigid());
-  return std::max(expected, logEvidence(refined) + log_odds_of_another_share) + known_place_log_odds > 0;
+  return std::max(expected, logEvidence(refined) + log_odds_of_another_share) + in_sight_log_odds > 0;
 }
 
 struct RefinedHypothesis {
@@ -203,7 +203,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   std::vector<RefinedHypothesis> peaks = refined(problem, refiner, summits);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
   std::erase_if(peaks, [&](const RefinedHypothesis& peak) {
-    return !isBetterThanChance(peak.pose, first_guess, options.known_place_log_odds);
+    return !isBetterThanChance(peak.pose, first_guess, options.in_sight_log_odds);
   });
   if (peaks.empty()) return noPose(NoPose::no_better_than_chance);
   PoseEstimate estimate;

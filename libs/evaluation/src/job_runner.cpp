@@ -45,7 +45,7 @@ bool isAt(const fs::path& path, int descriptor) {
 
 }  // namespace
 
-DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind) : file_(directory / "lock") {
+DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind) : file_(directory / "lock"), kind_(kind) {
   createDirectories(directory);
   const int operation = (kind == Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
   do {
@@ -61,8 +61,7 @@ DirectoryLock::DirectoryLock(const fs::path& directory, Kind kind) : file_(direc
 }
 
 DirectoryLock::~DirectoryLock() {
-  const bool last = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-  if (last && isAt(file_, descriptor_)) unlink(file_.c_str());
+  if (kind_ == Kind::alone) unlink(file_.c_str());
   close(descriptor_);
 }
 

@@ -45,9 +45,10 @@ std::vector<FeatureMatch> matchFeatures(const FeatureSet& query, const FeatureSe
   }
   const std::vector<Nearest> back =
       nearestAmong(DescriptorBlocks(query.kind, query.descriptors), reference.descriptors, references);
-  std::size_t match = 0;
-  std::erase_if(matches, [&](const FeatureMatch& found) { return back[match++].row != found.query; });
-  return matches;
+  std::vector<FeatureMatch> mutual;
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (back[i].row == matches[i].query) mutual.push_back(matches[i]);
+  return mutual;
 }
 
 }  // namespace vmcl

@@ -34,7 +34,6 @@ using Word = hn::Vec<WordTag>;
 using Float = hn::Vec<FloatTag>;
 
 constexpr std::size_t lanes = hn::MaxLanes(IntTag());
-constexpr std::size_t abreast = 4;  // queries that share the reading of the references
 
 /// Bits that differ are counted by adding up neighbours within words (Warren, Hacker's Delight, section 5-1).
 class Hamming {
@@ -57,7 +56,9 @@ class Hamming {
     return sums + ((bits + hn::ShiftRight<4>(bits)) & all(0x0f0f0f0fu));  // bytes stay below 256 for up to 31 words
   }
 
-  HWY_INLINE Int distances(Word sums, const uint32_t*, std::size_t) const {
+  float squaredNorm(const uint32_t*) const { return 0; }  // of no use here
+
+  HWY_INLINE Int distances(Word sums, float, std::size_t) const {
     const Word bytes = hn::Set(WordTag(), 0x00ff00ffu), low = hn::Set(WordTag(), 0xffffu);
     sums = (sums & bytes) + (hn::ShiftRight<8>(sums) & bytes);
     return hn::BitCast(IntTag(), (sums & low) + hn::ShiftRight<16>(sums));
@@ -84,9 +85,13 @@ class SquaredEuclidean {
     return hn::MulAdd(hn::Set(FloatTag(), query), reference, sum);
   }
 
-  HWY_INLINE Int distances(Float products, const float* query, std::size_t first_row) const {
-    float squared_norm = 0;
-    for (std::size_t k = 0; k < words_; ++k) squared_norm += query[k] * query[k];
+  float squaredNorm(const float* query) const {
+    float sum = 0;
+    for (std::size_t k = 0; k < words_; ++k) sum += query[k] * query[k];
+    return sum;
+  }
+
+  HWY_INLINE Int distances(Float products, float squared_norm, std::size_t first_row) const {
     const Float norms = hn::Set(FloatTag(), squared_norm) + hn::LoadU(FloatTag(), squared_norms_ + first_row);
     return hn::ConvertTo(IntTag(), norms - (products + products));
   }
@@ -135,22 +140,24 @@ class NearestLanes {
 template <class Distance>
 void search(const DescriptorBlocks& blocks, const typename Distance::Element* const* queries, Nearest* nearest) {
   const Distance distance(blocks);
-  NearestLanes found[abreast];
+  NearestLanes found[queries_abreast];
+  float squared_norms[queries_abreast];
+  for (std::size_t q = 0; q < queries_abreast; ++q) squared_norms[q] = distance.squaredNorm(queries[q]);
   const Int count = hn::Set(IntTag(), static_cast<int32_t>(blocks.count)), none = hn::Set(IntTag(), no_distance);
   for (std::size_t row = 0; row < blocks.count; row += lanes) {
     const std::size_t block = row / DescriptorBlocks::block, lane = row % DescriptorBlocks::block;
     const auto* references = distance.references() + block * blocks.words * DescriptorBlocks::block + lane;
-    typename Distance::Sum sums[abreast];
+    typename Distance::Sum sums[queries_abreast];
     for (auto& sum : sums) sum = Distance::zero();
     for (std::size_t k = 0; k < blocks.words; ++k) {
       const auto reference = Distance::read(references + k * DescriptorBlocks::block);
-      for (std::size_t q = 0; q < abreast; ++q) sums[q] = Distance::add(sums[q], queries[q][k], reference);
+      for (std::size_t q = 0; q < queries_abreast; ++q) sums[q] = Distance::add(sums[q], queries[q][k], reference);
     }
     const Int rows = hn::Iota(IntTag(), static_cast<int32_t>(row));
-    for (std::size_t q = 0; q < abreast; ++q)
-      found[q].offer(rows, hn::IfThenElse(rows < count, distance.distances(sums[q], queries[q], row), none));
+    for (std::size_t q = 0; q < queries_abreast; ++q)
+      found[q].offer(rows, hn::IfThenElse(rows < count, distance.distances(sums[q], squared_norms[q], row), none));
   }
-  for (std::size_t q = 0; q < abreast; ++q) nearest[q] = found[q].overall();
+  for (std::size_t q = 0; q < queries_abreast; ++q) nearest[q] = found[q].overall();
 }
 
 void searchBits(const DescriptorBlocks& blocks, const uint32_t* const* queries, Nearest* nearest) {
@@ -179,23 +186,23 @@ void readWords(const uint8_t* descriptor, std::span<float> words) {
   std::copy_n(descriptor, words.size(), words.begin());
 }
 
-/// Searches for four queries at a time; the last are repeated where there are fewer.
+/// Searches for as many queries at a time; the last is repeated where there are fewer.
 template <class Element, class Search>
 std::vector<Nearest> searchAll(const DescriptorBlocks& blocks, const Descriptors& queries, std::span<const int> rows,
                                Search&& search) {
-  constexpr std::size_t abreast = 4;
   std::vector<Nearest> nearest(rows.size());
-  std::vector<Element> words(abreast * blocks.words);
-  for (std::size_t first = 0; first < rows.size(); first += abreast) {
-    const Element* starts[abreast];
-    Nearest found[abreast];
-    for (std::size_t q = 0; q < abreast; ++q) {
+  std::vector<Element> words(queries_abreast * blocks.words);
+  for (std::size_t first = 0; first < rows.size(); first += queries_abreast) {
+    const Element* starts[queries_abreast];
+    Nearest found[queries_abreast];
+    for (std::size_t q = 0; q < queries_abreast; ++q) {
       const auto own = std::span(words).subspan(q * blocks.words, blocks.words);
       readWords(queries.row(rows[std::min(first + q, rows.size() - 1)]).data(), own);
       starts[q] = own.data();
     }
     search(starts, found);
-    std::copy_n(found, std::min(abreast, rows.size() - first), nearest.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy_n(found, std::min(queries_abreast, rows.size() - first),
+                nearest.begin() + static_cast<std::ptrdiff_t>(first));
   }
   return nearest;
 }

@@ -12,6 +12,8 @@ namespace vmcl {
 
 inline constexpr int32_t no_distance = std::numeric_limits<int32_t>::max();
 
+inline constexpr std::size_t queries_abreast = 4;  ///< that share the reading of the references
+
 /// The nearest descriptor, the first of those as near, and how near the second nearest is.
 struct Nearest {
   int row = -1;

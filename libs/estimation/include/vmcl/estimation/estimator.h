@@ -19,11 +19,11 @@ struct EstimatorOptions {
   int iterations = 20000;  ///< most random samples drawn, at least 1; easy problems need few
   uint64_t seed = 1;       ///< same seed, same answer
   LikelihoodOptions likelihood{};
-  bool estimate_sigma_px = false;   ///< whether the pixel noise is but a first guess, to be estimated from the inliers
-  int refined = 32;                 ///< best hypotheses that are optimized, at least 1
-  int max_modes = 5;                ///< modes reported, at least 1
-  SoftPlane plane{};                ///< unmodelled tilt and height of the robot
-  double known_place_log_odds = 3;  ///< that it is within sight of the references, before the matches are seen
+  bool estimate_sigma_px = false;  ///< whether the pixel noise is but a first guess, to be estimated from the inliers
+  int refined = 32;                ///< best hypotheses that are optimized, at least 1
+  int max_modes = 5;               ///< modes reported, at least 1
+  SoftPlane plane{};               ///< unmodelled tilt and height of the robot
+  double in_sight_log_odds = 3;    ///< that a reference has the place in sight, before the matches are seen
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;

@@ -20,7 +20,9 @@ struct SoftPlane {
   void check() const;
 };
 
-/// A local maximum of the likelihood (times the soft plane's prior).
+/// A local maximum of the likelihood (times the soft plane's prior), but that the prior of the depth of matches without
+/// one pulls less than in L: L compares poses, for which each match counts by itself, while an error of the prior,
+/// common to all, would draw them all to one side.
 struct RefinedPose {
   PlanarPose map_from_robot;
   double roll = 0, pitch = 0, height = 0;  ///< R = Rz(phi) Ry(pitch) Rx(roll)
@@ -57,7 +59,8 @@ class PoseRefiner {
   std::vector<ClimbedPose> climb(std::span<const PlanarTransform> starts, int max_steps = 15) const;
 
   /// Gradient and Gauss-Newton information of the likelihood over (x, y, phi, roll, pitch, height), matches weighted by
-  /// their chance of being inliers. The gradient leaves out how the residuals' spread varies with the pose.
+  /// their chance of being inliers. The gradient leaves out how the residuals' spread varies with the pose; the prior
+  /// of unknown depths pulls as RefinedPose says.
   struct Linearization {
     Vector6 gradient = Vector6::Zero();
     Matrix6 information = Matrix6::Zero();
@@ -70,8 +73,8 @@ class PoseRefiner {
   void linearize(std::span<const PlanarTransform> poses, std::span<PlanarSlope> slopes) const;
 
   /// As this pose shows them: the share of inliers among the matches, weighed with the prior's as if of 15 more
-  /// matches; and the standard deviation of a pixel coordinate, one step of Fisher scoring from the likelihood's on,
-  /// weighed with the prior's as if of 4 more coordinates.
+  /// matches; and the standard deviation of a pixel coordinate, weighed with the prior's as if of 4 more coordinates:
+  /// one step from the likelihood's towards where it fits the inliers' residuals.
   double inlierRate(const RefinedPose& pose, double prior_rate) const;
   double sigmaPx(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const;
 

@@ -8,8 +8,8 @@
 
 namespace vmcl {
 
-/// Keeps two programs from filling one directory as if each were alone, by a file that the last holder removes; ends
-/// with the object, or the process. Several that only add single runs may share it.
+/// Keeps two programs from filling one directory as if each were alone, by a file in it; ends with the object, or the
+/// process. Several that only add single runs may share it; they leave the file, which one alone removes.
 class DirectoryLock {
  public:
   enum class Kind { alone, shared };
@@ -22,6 +22,7 @@ class DirectoryLock {
 
  private:
   std::filesystem::path file_;
+  Kind kind_;
   int descriptor_ = -1;
 };
 

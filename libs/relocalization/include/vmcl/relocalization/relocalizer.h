@@ -19,7 +19,7 @@ struct RelocalizerOptions {
   double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
                                  ///< than the paper's 5 m, since each point carries its covariance
   /// Floors and tyres give a little, and place recognition may name places where the robot is not.
-  EstimatorOptions estimator{.plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .known_place_log_odds = -3};
+  EstimatorOptions estimator{.plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .in_sight_log_odds = -3};
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
