@@ -96,8 +96,15 @@ TEST_F(AmclIni, BadValuesAreNamed) {
     sections_["amcl"] = before;
   }
   sections_["amcl"]["set_initial_pose"] = "true";
-  sections_["amcl"]["initial_cov_xx"] = "-1";
-  EXPECT_NE(refusal().find("covariance"), std::string::npos);
+  for (const char* covariance : {"-1", "1e15"}) {
+    sections_["amcl"]["initial_cov_xx"] = covariance;
+    EXPECT_NE(refusal().find("[amcl] the covariance"), std::string::npos) << refusal();
+  }
+}
+
+TEST_F(AmclIni, TooManyParticlesAreNamedByTheKeyOfTheIni) {
+  sections_["amcl"]["max_particles"] = "2000000000";
+  EXPECT_EQ(refusal(), "[amcl] max_particles: exceeds 10000000");
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 
 using enum LocalizationStatus;
 
-/// An image that fits where the odometry says the robot is, at x = 1 + `travelled`, or nowhere when it is `dark`.
+/// An image that fits where the odometry says the robot is, at x = 1 + `travelled`, y = 2, facing 0, or nowhere when it
+/// is `dark`.
 class BadInput : public ::testing::Test {
  protected:
   BadInput() {
@@ -17,9 +18,26 @@ class BadInput : public ::testing::Test {
     localizer_.emplace(config_, mapsWith(camera_));
   }
 
+  /// Anew, with AMCL's options.
+  void beginLikeAmcl() {
+    LocalizerOptions amcl = amclOptions();
+    amcl.health.lost_reset_after = 0;
+    localizer_.emplace(amcl);
+    localizer_->setMap(mapsWith(camera_), box);
+    localizer_->setInitialPose({{1, 2, 0}, 0.01 * Eigen::Matrix3d::Identity()});
+    travelled_ = 0;
+  }
+
   std::optional<LocalizationFrame> see() {
     const auto frame = localizer_->step(nullptr, nullptr, commentAt(time_));
     if (frame) expectFinite(*frame);
+    return frame;
+  }
+
+  /// A tenth of a second later.
+  mrpt::obs::CSensoryFrame seen() {
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(commentAt(time_ += 0.1));
     return frame;
   }
 
@@ -48,7 +66,7 @@ class BadInput : public ::testing::Test {
   double travelled_ = 0;
   bool dark_ = false;
   std::shared_ptr<FakeCameraMap> camera_ = std::make_shared<FakeCameraMap>([this](const PlanarPose& pose) {
-    const double off = pose.x - 1 - travelled_;
+    const double off = std::hypot(pose.x - 1 - travelled_, pose.y - 2, pose.phi);
     return dark_ ? -0.01 : 0.7 * std::exp(-off * off / 0.1) - 0.2;
   });
   std::optional<Localizer> localizer_;
@@ -72,16 +90,19 @@ TEST_F(BadInput, OdometryThatJumps) {
 }
 
 TEST_F(BadInput, OdometryThatStops) {
-  drive(10);
-  for (int i = 0; i < 10; ++i) {
-    time_ += 0.1;
-    travelled_ += 0.05;
-    see();
+  for (const bool like_amcl : {false, true}) {
+    if (like_amcl) beginLikeAmcl();
+    drive(20);
+    for (int i = 0; i < 10; ++i) {
+      time_ += 0.1;
+      travelled_ += 0.05;
+      see();
+    }
+    EXPECT_EQ(localizer_->health().status, degraded);
+    EXPECT_EQ(localizer_->takeProblems(), std::vector<std::string>{"the odometry has stopped"});
+    EXPECT_LT(error(), 0.3);  // followed by sight
+    EXPECT_EQ(drive(20), tracking);
   }
-  EXPECT_EQ(localizer_->health().status, degraded);
-  EXPECT_EQ(localizer_->takeProblems(), std::vector<std::string>{"the odometry has stopped"});
-  EXPECT_LT(error(), 0.3);  // followed by sight
-  EXPECT_EQ(drive(10), tracking);
 }
 
 TEST_F(BadInput, OdometryThatIsNotFinite) {
@@ -142,6 +163,42 @@ TEST_F(BadInput, ACameraThatVanishes) {
   }
   EXPECT_NEAR(frames, 4, 1);  // one a second
   EXPECT_EQ(drive(10), tracking);
+}
+
+/// The status must not stay what it was, with odometry or without.
+TEST_F(BadInput, AMapThatThrowsOrGivesNoNumber) {
+  enum { fine, none, throws } map_is = fine;
+  const auto map = std::make_shared<FakeMap>([&](const PlanarPose& pose) {
+    if (map_is == throws) throw std::runtime_error("the map is broken");
+    return map_is == none ? std::nan("") : -std::abs(pose.x - 1);
+  });
+  localizer_->setMap(mapsWith(map), box);
+  for (const auto broken : {none, throws}) {
+    map_is = fine;
+    for (int i = 0; i < 5; ++i) localizer_->process(PlanarPose{}, seen());
+    EXPECT_EQ(localizer_->health().status, tracking);
+    map_is = broken;
+    const auto before = numbersOf(localizer_->particles());
+    for (int i = 0; i < 15; ++i) EXPECT_FALSE(localizer_->process(nullptr, seen()));
+    EXPECT_EQ(localizer_->takeProblems().size(), 15U);
+    EXPECT_EQ(numbersOf(localizer_->particles()), before);
+    EXPECT_EQ(localizer_->health().status, degraded);
+  }
+}
+
+/// It weighs the particles, but nothing anywhere else.
+TEST_F(BadInput, AMapThatThrowsWhileThePoseIsJudged) {
+  int asked = 0;
+  const auto map = std::make_shared<FakeMap>([&](const PlanarPose&) {
+    if (++asked % 201 == 0) throw std::runtime_error("the map is broken");
+    return 0;
+  });
+  config_.start = {0, 2, 1, 3, 0, 0};
+  localizer_.emplace(config_, mapsWith(map));
+  localizer_->setInitialPose({{1, 2, 0}, Eigen::Matrix3d::Zero()});
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(localizer_->process(nullptr, seen()));
+  EXPECT_EQ(localizer_->takeProblems().size(), 5U);
+  EXPECT_EQ(localizer_->health().status, searching);
 }
 
 TEST_F(BadInput, AnInitialPoseOffTheMap) {

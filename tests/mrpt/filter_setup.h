@@ -27,10 +27,14 @@ struct FilterSetup {
     filter.BETA = 0;  // no resampling, so that weights can be looked at
   }
 
+  mrpt::maps::CMultiMetricMap::Ptr maps() const {
+    auto one = mrpt::maps::CMultiMetricMap::Create();
+    one->maps.push_back(std::make_shared<FakeMap>(log_likelihood));
+    return one;
+  }
+
   PlanarMonteCarlo make(const PoseBox& start, int particles) const {
-    auto maps = mrpt::maps::CMultiMetricMap::Create();
-    maps->maps.push_back(std::make_shared<FakeMap>(log_likelihood));
-    PlanarMonteCarlo filtered(maps, kld, filter, options, PoseRegion(box));
+    PlanarMonteCarlo filtered(maps(), kld, filter, options, PoseRegion(box));
     filtered.start(PoseRegion(start), particles);
     return filtered;
   }

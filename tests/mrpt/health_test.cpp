@@ -102,6 +102,22 @@ TEST_F(HealthTest, OdometryAloneIsTrackedWhileTheClusterIsSteady) {
   EXPECT_EQ(see(Verdict::untestable, false), degraded);
 }
 
+TEST_F(HealthTest, AClockSetBackDoesNotMakeItConfirmedForLong) {
+  see(Verdict::agrees);
+  time_ -= 60;
+  EXPECT_EQ(seeTimes(9, Verdict::silent), tracking);
+  EXPECT_EQ(seeTimes(3, Verdict::silent), degraded);
+  EXPECT_NEAR(monitor_.health().unconfirmed_for, 1.1, 1e-9);
+}
+
+TEST_F(HealthTest, ContradictionsWithAnotherMapAreForgotten) {
+  see(Verdict::agrees);
+  EXPECT_EQ(seeTimes(2, Verdict::contradicts), degraded);
+  monitor_.forgetContradictions();
+  EXPECT_EQ(seeTimes(2, Verdict::contradicts), degraded);
+  EXPECT_EQ(see(Verdict::contradicts), lost);
+}
+
 TEST_F(HealthTest, EveryStatusHasAName) {
   EXPECT_EQ(nameOf(uninitialized), "uninitialized");
   EXPECT_EQ(nameOf(lost), "lost");

@@ -28,6 +28,15 @@ inline LocalizationConfig trackingConfig() {
   return config;
 }
 
+/// AMCL's, with little noise.
+inline LocalizerOptions amclOptions() {
+  LocalizerOptions amcl = LocalizerOptions::amcl();
+  for (double* alpha : {&amcl.monte_carlo.motion_model->alpha1, &amcl.monte_carlo.motion_model->alpha2,
+                        &amcl.monte_carlo.motion_model->alpha3, &amcl.monte_carlo.motion_model->alpha4})
+    *alpha = 1e-4;
+  return amcl;
+}
+
 inline std::shared_ptr<FakeMap> flatMap() {
   return std::make_shared<FakeMap>([](const PlanarPose&) { return 0; });
 }

@@ -118,6 +118,8 @@ TEST(Localizer, ByOdometryOnlyItWeighsNothing) {
 TEST(Localizer, MayStartAnywhereInTheMap) {
   LocalizationConfig config = trackingConfig();
   config.start_anywhere = true;
+  EXPECT_THROW(Localizer(config, mapsWith(flatMap())), std::logic_error);
+  config.start = {0, 2, 1, 3, 0, 0};
   const Localizer localizer(config, mapsWith(flatMap()));
   double greatest = 0;
   for (const auto& particle : localizer.particles().m_particles)
@@ -164,6 +166,17 @@ TEST(Localizer, LeavesOutMovementsThatAreNone) {
       EXPECT_NEAR(localizer.step(action, someFrame(), nullptr)->cluster.robot_in_map.x, 1, 0.02);
       EXPECT_EQ(localizer.takeProblems().size(), 1U) << x;
     }
+}
+
+TEST(Localizer, LeavesOutMovementsWithoutAPose) {
+  Localizer localizer(trackingConfig(), mapsWith(flatMap()));
+  localizer.step(nullptr, someFrame(), nullptr);
+  const auto action = std::make_shared<mrpt::obs::CActionCollection>(movement(0.5, 0));
+  action->getActionByClass<mrpt::obs::CActionRobotMovement2D>()->poseChange.reset();
+  const auto frame = localizer.step(action, someFrame(), nullptr);
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(frame->cluster.robot_in_map.x, 1, 0.02);
+  EXPECT_EQ(localizer.takeProblems().size(), 1U);
 }
 
 TEST(Localizer, LeavesOutJumpsOfTheOdometry) {

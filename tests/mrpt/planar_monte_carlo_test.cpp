@@ -59,6 +59,45 @@ TEST(PlanarMonteCarlo, RecoversWithRandomParticlesWhenTheLikelihoodDrops) {
   EXPECT_NEAR(weightWhere(filter, elsewhere), 1 - 0.50337 / 0.99901, 0.002);
 }
 
+TEST(PlanarMonteCarlo, LikelihoodsBeforeAStartOrOfAnotherMapDoNotCount) {
+  FilterSetup setup;
+  setup.options.recovery_alpha_slow = 0.001;
+  setup.options.recovery_alpha_fast = 0.5;
+  double level = 0;
+  setup.log_likelihood = [&](const PlanarPose&) { return level; };
+  const auto frame = someObservation();
+  const PoseRegion origin({0, 0, 0, 0, 0, 0});
+  const auto elsewhere = [](const PlanarPose& p) { return std::hypot(p.x, p.y) > 0.1; };
+  for (const bool restarted : {true, false}) {
+    level = 0;
+    auto filter = setup.make({0, 0, 0, 0, 0, 0}, 1000);
+    filter.update(nullptr, &frame);
+    level = -5;
+    filter.update(nullptr, &frame);  // the averages notice
+    if (restarted)
+      filter.start(origin, 1000);
+    else
+      filter.setMap(setup.maps(), PoseRegion(box));
+    filter.update(nullptr, &frame);
+    EXPECT_EQ(weightWhere(filter, elsewhere), 0) << restarted;
+  }
+}
+
+TEST(PlanarMonteCarlo, StaysWhereItIsInAMapOfNoKnownExtent) {
+  FilterSetup setup;
+  setup.options.recovery_alpha_slow = 0.001;
+  setup.options.recovery_alpha_fast = 0.5;
+  double level = 0;
+  setup.log_likelihood = [&](const PlanarPose&) { return level; };
+  PlanarMonteCarlo filter(setup.maps(), setup.kld, setup.filter, setup.options, PoseRegion(PoseBox{}));
+  filter.start(PoseRegion({3, 3, 2, 2, 1, 1}), 100);
+  const auto before = numbersOf(filter);
+  const auto frame = someObservation();
+  for (level = 0; level > -10; --level) filter.update(nullptr, &frame);
+  filter.scatterAnywhere(0.5);
+  EXPECT_EQ(numbersOf(filter), before);
+}
+
 TEST(PlanarMonteCarlo, SameSeedSameParticles) {
   FilterSetup setup;
   setup.filter.adaptiveSampleSize = true;
@@ -82,8 +121,11 @@ TEST(PlanarMonteCarlo, RefusesALikelihoodThatIsNotFinite) {
   FilterSetup setup;
   setup.log_likelihood = [](const PlanarPose&) { return std::nan(""); };
   auto filter = setup.make(box, 10);
+  const auto before = numbersOf(filter);
   const auto frame = someObservation();
-  EXPECT_THROW(filter.update(nullptr, &frame), std::runtime_error);
+  const PoseMode somewhere = mode({1, 1, 1}, 0.1);
+  EXPECT_THROW(filter.update(nullptr, &frame, {&somewhere, 1}), std::runtime_error);
+  EXPECT_EQ(numbersOf(filter), before);
 }
 
 TEST(PlanarMonteCarlo, RefusesBadOptions) {
@@ -98,6 +140,8 @@ TEST(PlanarMonteCarlo, RefusesBadOptions) {
   refuses([](FilterSetup& s) { s.options.recovery_alpha_fast = 2; });
   refuses([](FilterSetup& s) { s.options.aliasing_probability = 1; });
   refuses([](FilterSetup& s) { s.options.threads = 0; });
+  refuses([](FilterSetup& s) { s.filter.BETA = std::nan(""); });
+  refuses([](FilterSetup& s) { s.filter.powFactor = 0; });
   refuses([](FilterSetup& s) { s.filter.PF_algorithm = CParticleFilter::pfOptimalProposal; });
   refuses([](FilterSetup& s) {
     s.filter.adaptiveSampleSize = true;

@@ -50,6 +50,8 @@ TEST(PoseWithCovariance, BrokenFilesAreNamed) {
 TEST(PoseWithCovariance, OfNoUseIsNotWritten) {
   const ScratchDirectory scratch;
   PoseWithCovariance pose = somewhere();
+  pose.covariance(0, 0) = 1e15;
+  EXPECT_THROW(savePose(scratch.path() / "pose.yaml", pose), std::invalid_argument);
   pose.robot_in_map.x = std::nan("");
   EXPECT_THROW(savePose(scratch.path() / "pose.yaml", pose), std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "pose.yaml"));

@@ -38,6 +38,8 @@ void readSampleSize(IniSection& section, LocalizationConfig& config) {
   section.read("pf_z", certainty);
   if (least < 1) section.fail("min_particles", "is not positive");
   if (most < least) section.fail("max_particles", "is less than min_particles");
+  if (most > KldSampleSize::most_particles)
+    section.fail("max_particles", "exceeds " + std::to_string(KldSampleSize::most_particles));
   if (!(config.kld.KLD_epsilon > 0 && config.kld.KLD_epsilon < 1)) section.fail("pf_err", "is not in (0, 1)");
   if (!(certainty > 0 && certainty < 1)) section.fail("pf_z", "is not in (0, 1)");
   config.kld.KLD_minSampleSize = static_cast<unsigned>(least);
@@ -79,7 +81,6 @@ void readAmclSection(const mrpt::config::CConfigFileBase& ini, LocalizationConfi
   section.read("recovery_alpha_slow", config.monte_carlo.recovery_alpha_slow);
   section.read("recovery_alpha_fast", config.monte_carlo.recovery_alpha_fast);
   section.refuseUnknownKeys();
-  KldSampleSize{config.kld};
   config.check();
 } catch (const std::invalid_argument& error) {
   const std::string message = error.what(), place = std::string("[") + amcl_section + "] ";

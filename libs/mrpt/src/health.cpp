@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/health.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -35,7 +36,8 @@ const Health& HealthMonitor::update(const UpdateEvidence& evidence) {
   tested_ = tested_ || evidence.testable > 0;
   const bool agreed = evidence.agreeing > 0 && evidence.contradicting == 0;
   confirmed_ = confirmed_ || agreed;
-  if (agreed || !confirmed_at_) confirmed_at_ = evidence.time;
+  // Later than now only when a clock was set back.
+  confirmed_at_ = agreed ? evidence.time : std::min(confirmed_at_.value_or(evidence.time), evidence.time);
   if (agreed)
     health_.contradictions = 0;
   else if (evidence.contradicting > 0 && evidence.agreeing == 0)

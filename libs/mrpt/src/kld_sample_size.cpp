@@ -11,8 +11,6 @@
 namespace vmcl {
 namespace {
 
-constexpr int most_particles = 10'000'000;
-
 long binOf(double coordinate, double size) {
   constexpr double last = 0x1p53;  // farther bins fit into no long
   return std::lround(std::clamp(coordinate / size, -last, last));

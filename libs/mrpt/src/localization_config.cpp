@@ -29,7 +29,6 @@ namespace fs = std::filesystem;
 using mrpt::config::CConfigFileMemory;
 using mrpt::system::lowerCase;
 
-constexpr int max_particles = 10'000'000;
 constexpr const char* first_visual_map = "MetricMap_visualKeyframes_00_creationOpts";
 
 CConfigFileMemory readIni(const fs::path& file) {
@@ -131,8 +130,8 @@ int firstCount(IniSection& section, const std::string& key) {
   int first = 0;
   if (!(words >> first) || !(words.eof() || std::isspace(words.peek())))
     section.fail(key, "'" + counts + "' is not a number of particles");
-  if (first < 1 || first > max_particles)
-    section.fail(key, std::to_string(first) + " is not in [1, " + std::to_string(max_particles) + "]");
+  if (first < 1 || first > KldSampleSize::most_particles)
+    section.fail(key, std::to_string(first) + " is not in [1, " + std::to_string(KldSampleSize::most_particles) + "]");
   return first;
 }
 
@@ -199,9 +198,6 @@ void checkSupported(const PlanarMonteCarlo::ParticleFilterOptions& options) {
 }
 
 void readFilter(const CConfigFileMemory& ini, LocalizationConfig& config) {
-  const auto demand = [](bool valid, const char* key) {
-    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
-  };
   config.kld.loadFromConfigFile(ini, "KLD_options");
   try {
     KldSampleSize{config.kld};
@@ -211,9 +207,7 @@ void readFilter(const CConfigFileMemory& ini, LocalizationConfig& config) {
   config.filter.PF_algorithm = ini.read_enum("PF_options", "PF_algorithm", config.filter.PF_algorithm);
   checkSupported(config.filter);  // at once, because MRPT asks for more keys with another algorithm
   config.filter.loadFromConfigFile(ini, "PF_options");
-  demand(config.filter.BETA >= 0 && config.filter.BETA <= 1, "[PF_options] BETA");
   checkSupported(config.filter);
-  demand(config.filter.powFactor > 0 && config.filter.powFactor <= 1, "[PF_options] powFactor");
 }
 
 void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {

@@ -15,16 +15,11 @@
 #include "vmcl/mrpt/pose_conversion.h"
 
 namespace vmcl {
-namespace {
 
 using mrpt::maps::CMultiMetricMap;
 using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
-
-double timeOf(const CSensoryFrame& frame) { return mrpt::Clock::toDouble((*frame.begin())->timestamp); }
-
-}  // namespace
 
 /// What of a frame the maps can use, and what its images say.
 struct Localizer::Used {
@@ -70,6 +65,7 @@ void Localizer::setMap(CMultiMetricMap::Ptr maps, const std::optional<PoseBox>& 
   anywhere_ = regionOf(*maps, extent);
   maps_ = std::move(maps);
   filter_.setMap(maps_, anywhere_);
+  monitor_.forgetContradictions();
   steady_frames_ = 0;
   expected_.reset();
 }
@@ -80,6 +76,7 @@ void Localizer::restart() {
   steady_frames_ = 0;
   expected_.reset();
   updated_at_.reset();
+  seen_at_.reset();
   lost_at_.reset();
 }
 
@@ -92,6 +89,7 @@ void Localizer::setInitialPose(const PoseWithCovariance& pose) {
 }
 
 void Localizer::globalLocalization() {
+  if (anywhere_.volume() == 0) throw std::logic_error("the map does not tell where the robot may be");
   filter_.start(anywhere_, options_.particles_count);
   restart();
 }
@@ -111,21 +109,30 @@ std::vector<PoseCluster> Localizer::clusters() const {
   return all;
 }
 
-std::optional<LocalizationFrame> Localizer::process(const CActionCollection* action,
-                                                    const CSensoryFrame& observations) {
-  return processNew(action, newOnes(observations));
-}
-
 std::optional<LocalizationFrame> Localizer::processNew(const CActionCollection* action,
                                                        const CSensoryFrame& observations) {
   if (filter_.m_particles.empty()) return std::nullopt;
   const bool due = advance(isUsable(action) ? action : nullptr);
-  return due ? update(observations) : std::nullopt;
+  if (observations.size() == 0) return std::nullopt;
+  const double time = timeOf(observations);
+  if (!due && !odometry_.hasStopped(time)) {
+    seen_at_ = time;
+    return std::nullopt;
+  }
+  try {
+    if (const auto frame = update(observations)) return frame;
+  } catch (const std::exception& error) {
+    leaveOut(error);
+    update_requested_ = true;
+  }
+  noteSilence(time);
+  return std::nullopt;
 }
 
-std::optional<LocalizationFrame> Localizer::process(const PlanarPose& movement, const CSensoryFrame& observations) {
-  const CActionCollection action = actionOf(movement);
-  return process(&action, observations);
+/// Of an observation without a time: that of the last one used.
+double Localizer::timeOf(const CSensoryFrame& frame) const {
+  const auto stamp = (*frame.begin())->timestamp;
+  return stamp == INVALID_TIMESTAMP ? updated_at_.value_or(0) : mrpt::Clock::toDouble(stamp);
 }
 
 /// Moves the particles, or, for a motion model whose noise depends on the whole way, remembers the movement until the
@@ -152,29 +159,30 @@ std::optional<LocalizationFrame> Localizer::update(const CSensoryFrame& observat
   if (used.observations.empty()) return std::nullopt;
   const double time = timeOf(used.frame);
   allowForStoppedOdometry(time);
+  updated_at_ = time;
   if (options_.monte_carlo.motion_model) {
     const CActionCollection moved = actionOf(std::exchange(pending_, {}));
     filter_.update(&moved, nullptr);
   }
   if (!options_.odometry_only) filter_.update(nullptr, &used.frame, used.modes());
-  updated_at_ = time;
+  seen_at_ = time;
   since_update_ = {};
   update_requested_ = false;
   const PoseCluster cluster = dominantCluster(filter_);
   UpdateEvidence seen = evidence(used, cluster);
   countSteadyFrames(cluster, seen);
   monitor_.update(seen);
-  LocalizationFrame result = report(time);
+  LocalizationFrame result = report(time, cluster);
   result.inliers = used.inliers;
   recover(time);
   result.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 
-LocalizationFrame Localizer::report(double time) {
+LocalizationFrame Localizer::report(double time, const PoseCluster& cluster) {
   LocalizationFrame result;
   result.time = time;
-  result.cluster = dominantCluster(filter_);
+  result.cluster = cluster;
   result.cluster.robot_in_map = result.cluster.robot_in_map * pending_;
   result.health = monitor_.health();
   result.localized = result.health.status == LocalizationStatus::tracking;
@@ -226,50 +234,17 @@ UpdateEvidence Localizer::evidence(const Used& used, const PoseCluster& cluster)
   if (options_.odometry_only) return evidence;
   for (const auto& [observation, modes] : used.observations)
     for (const auto& map : maps_->maps) {
-      if (!map->canComputeObservationLikelihood(*observation)) continue;
-      const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
-      evidence.count(relocalizing ? judgeImage(*relocalizing, *observation, modes, cluster.robot_in_map)
-                                  : judgeByRank(*map, *observation, anywhere_, cluster.robot_in_map, random_));
+      try {
+        if (!map->canComputeObservationLikelihood(*observation)) continue;
+        const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
+        evidence.count(relocalizing ? judgeImage(*relocalizing, *observation, modes, cluster.robot_in_map)
+                                    : judgeByRank(*map, *observation, anywhere_, cluster.robot_in_map, random_));
+      } catch (const std::exception& error) {
+        leaveOut(error);
+        evidence.count(Verdict::silent);
+      }
     }
   return evidence;
-}
-
-/// One deceptive image can carry a whole cluster elsewhere: a robot that jumps is not localized.
-void Localizer::countSteadyFrames(const PoseCluster& cluster, UpdateEvidence& evidence) {
-  constexpr double scattered_deviation = 0.6, scattered_share = 0.5;  // m: of a cluster's radius of 1 m
-  constexpr double other_position = 1, other_heading = 45 * degree;   // to another cluster
-  const LocalizedRule& rule = options_.localized;
-  const bool narrow = cluster.positionDeviation() <= rule.max_position_deviation &&
-                      cluster.headingDeviation() <= rule.max_heading_deviation && cluster.share >= rule.min_share;
-  const Eigen::Vector3d jump =
-      expected_ ? difference(cluster.robot_in_map, *expected_) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  const bool as_expected =
-      jump.head<2>().norm() <= rule.max_position_deviation && std::abs(jump.z()) <= rule.max_heading_deviation;
-  steady_frames_ = !narrow ? 0 : as_expected ? steady_frames_ + 1 : 1;
-  expected_ = cluster.robot_in_map;
-  evidence.steady = steady_frames_ >= rule.min_frames;
-  evidence.jumped = narrow && (jump.head<2>().norm() > other_position || std::abs(jump.z()) > other_heading);
-  evidence.scattered = cluster.positionDeviation() > scattered_deviation || cluster.share < scattered_share;
-}
-
-/// A robot that is lost is sought nearby first, then everywhere.
-void Localizer::recover(double time) {
-  constexpr double share = 0.5, nearby_first = 0.2;
-  const double reset_after = options_.health.lost_reset_after;
-  if (monitor_.health().status != LocalizationStatus::lost || reset_after == 0) {
-    lost_at_.reset();
-    return;
-  }
-  if (!lost_at_) {
-    lost_at_ = time;
-    scattered_nearby_ = false;
-  } else if (time - *lost_at_ >= reset_after) {
-    filter_.scatterAnywhere(share);
-    lost_at_ = time;
-  } else if (!scattered_nearby_ && time - *lost_at_ >= nearby_first * reset_after) {
-    filter_.scatterNearby(share);
-    scattered_nearby_ = true;
-  }
 }
 
 }  // namespace vmcl

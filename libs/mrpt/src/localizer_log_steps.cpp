@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a Localizer takes in the steps of a log, and movements.
+// How a Localizer takes in what comes: pairs of movement and observations, steps of a log, odometry.
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/localizer.h"
 #include "vmcl/mrpt/movement.h"
 #include "vmcl/mrpt/pose_conversion.h"
@@ -15,8 +17,27 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
+std::optional<LocalizationFrame> Localizer::process(const CActionCollection* action,
+                                                    const CSensoryFrame& observations) try {
+  return processNew(action, newOnes(observations));
+} catch (const std::exception& error) {
+  return leaveOut(error);
+}
+
+std::optional<LocalizationFrame> Localizer::process(const PlanarPose& movement, const CSensoryFrame& observations) try {
+  const CActionCollection action = actionOf(movement);
+  return process(&action, observations);
+} catch (const std::exception& error) {
+  return leaveOut(error);
+}
+
+std::nullopt_t Localizer::leaveOut(const std::exception& error) {
+  problems_.push_back(errorMessage(error));
+  return std::nullopt;
+}
+
 std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& action, const CSensoryFrame::Ptr& frame,
-                                                 const CObservation::Ptr& observation) {
+                                                 const CObservation::Ptr& observation) try {
   if (const auto reading = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation))
     return addOdometry(*reading);
   if (steps_to_skip_ > 0) {
@@ -31,6 +52,8 @@ std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& a
   if (one.size() == 0) return std::nullopt;
   const CActionCollection moved = actionOf(odometry_.takeMovement());
   return processNew(&moved, one);
+} catch (const std::exception& error) {
+  return leaveOut(error);
 }
 
 bool Localizer::isUsable(const CActionCollection* action) {
@@ -38,7 +61,7 @@ bool Localizer::isUsable(const CActionCollection* action) {
   const bool boundless = !movement && action && action->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
   if (!boundless && !movement) return true;
   if (movement && isPlausibleMovement(toPlanarPose(movement->mean)) && movement->cov.asEigen().allFinite()) return true;
-  problems_.push_back("a movement that is not finite or of more than 1000 m");
+  problems_.push_back("a movement without a pose, not finite or of more than 1000 m");
   return false;
 }
 
@@ -52,24 +75,26 @@ CActionCollection Localizer::actionOf(const PlanarPose& movement) const {
 }
 
 std::optional<LocalizationFrame> Localizer::addOdometry(const mrpt::obs::CObservationOdometry& reading) {
-  if (const std::string problem = odometry_.add(reading); !problem.empty()) problems_.push_back(problem);
-  const double time = mrpt::Clock::toDouble(reading.timestamp), silence = options_.health.degraded_after;
-  const bool silent = updated_at_ && !options_.odometry_only && time > *updated_at_ + silence &&
-                      time > monitor_.health().last.time + silence;
-  if (!silent) return std::nullopt;
+  if (odometry_stopped_ && isFinite(toPlanarPose(reading.odometry))) {
+    odometry_.interrupt();  // the updates have allowed for the way since the last reading
+    odometry_stopped_ = false;
+  }
+  const std::string problem = odometry_.add(reading);
+  if (!problem.empty()) problems_.push_back(problem);
+  if (!seen_at_ || reading.timestamp == INVALID_TIMESTAMP) return std::nullopt;
+  const double time = mrpt::Clock::toDouble(reading.timestamp);
+  if (problem.empty()) seen_at_ = std::min(*seen_at_, time);  // later only when a clock was set back
+  if (!noteSilence(time)) return std::nullopt;
   const CActionCollection moved = actionOf(odometry_.takeMovement());
   advance(&moved);
-  UpdateEvidence nothing = monitor_.health().last;
-  nothing = {.time = time, .steady = nothing.steady, .scattered = nothing.scattered};
-  monitor_.update(nothing);
-  return report(time);
+  return report(time, dominantCluster(filter_));
 }
 
 /// A robot whose odometry has stopped may move at a walk.
 void Localizer::allowForStoppedOdometry(double time) {
-  constexpr double patience = 0.5, longest = 1;   // s
+  constexpr double longest = 1;                   // s
   constexpr double speed = 0.5, turn_rate = 0.5;  // standard deviations, m/s, rad/s
-  const bool stopped = odometry_.silentFor(time) > patience;
+  const bool stopped = odometry_.hasStopped(time);
   if (stopped && !odometry_stopped_) problems_.push_back("the odometry has stopped");
   odometry_stopped_ = stopped;
   if (!stopped || !updated_at_) return;

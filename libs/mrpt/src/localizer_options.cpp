@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "vmcl/mrpt/kld_sample_size.h"
+
 namespace vmcl {
 namespace {
 
@@ -38,9 +40,11 @@ LocalizerOptions LocalizerOptions::amcl() {
 }
 
 void LocalizerOptions::check() const {
-  demand(particles_count >= 1, "particles_count");
+  demand(particles_count >= 1 && particles_count <= KldSampleSize::most_particles, "particles_count");
   demand(update_min_d >= 0 && std::isfinite(update_min_d), "update_min_d");
   demand(update_min_a >= 0 && std::isfinite(update_min_a), "update_min_a");
+  KldSampleSize{kld};
+  PlanarMonteCarlo::check(filter);
   monte_carlo.check();
   localized.check();
   health.check();

@@ -7,6 +7,10 @@ namespace vmcl {
 
 std::optional<mrpt::poses::CPosePDFGaussian> movementOf(const mrpt::obs::CActionCollection* action) {
   if (!action) return std::nullopt;
+  for (const auto& one : *action)
+    if (const auto* planar = dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(one.get_ptr().get());
+        planar && !planar->poseChange)  // MRPT would follow it
+      return std::nullopt;
   mrpt::poses::CPosePDFGaussian movement;
   if (const auto planar = action->getBestMovementEstimation()) {
     movement.copyFrom(*planar->poseChange);

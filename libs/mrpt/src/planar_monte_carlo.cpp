@@ -20,14 +20,6 @@
 namespace vmcl {
 namespace {
 
-using mrpt::bayes::CParticleFilter;
-
-void checkShare(const char* name, double value, double high) {
-  if (!(value >= 0 && value <= high))
-    throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + " is not in [0, " +
-                                std::to_string(high) + "]");
-}
-
 PlanarPose planarPose(const mrpt::math::TPose2D& pose) { return {pose.x, pose.y, pose.phi}; }
 
 mrpt::math::TPose2D mrptPose(const PlanarPose& pose) { return {pose.x, pose.y, pose.phi}; }
@@ -49,27 +41,6 @@ void seedMrpt(uint64_t seed) {
 }
 
 }  // namespace
-
-void PlanarMonteCarloOptions::check() const {
-  RecoveryAverages(recovery_alpha_slow, recovery_alpha_fast);
-  checkShare("injection_share", injection_share, 0.9);
-  checkShare("kidnapping_probability", kidnapping_probability, 0.5);
-  checkShare("aliasing_probability", aliasing_probability, 0.5);
-  if (motion_model) motion_model->check();
-  if (amcl_resampling && amcl_resampling->resample_interval < 1)
-    throw std::invalid_argument("resample_interval = " + std::to_string(amcl_resampling->resample_interval) +
-                                " is not positive");
-  if (threads < 1 || threads > 1024)
-    throw std::invalid_argument("threads = " + std::to_string(threads) + " is not in [1, 1024]");
-}
-
-void PlanarMonteCarlo::check(const ParticleFilterOptions& options) {
-  if (options.PF_algorithm != CParticleFilter::pfStandardProposal)
-    throw std::invalid_argument("PF_algorithm = " + std::to_string(options.PF_algorithm) +
-                                " is not supported, only 0 (pfStandardProposal)");
-  if (options.adaptiveSampleSize && options.resamplingMethod != CParticleFilter::prMultinomial)
-    throw std::invalid_argument("adaptiveSampleSize needs resamplingMethod = 0 (prMultinomial)");
-}
 
 PlanarMonteCarlo::PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, const KldOptions& kld_options,
                                    const ParticleFilterOptions& filter_options,
@@ -97,6 +68,13 @@ void PlanarMonteCarlo::setMap(mrpt::maps::CMultiMetricMap::ConstPtr map, const P
   map_ = std::move(map);
   options.metricMap = map_;
   anywhere_ = anywhere;
+  forgetLikelihoods();
+}
+
+/// Those of another map or start tell nothing of being lost.
+void PlanarMonteCarlo::forgetLikelihoods() {
+  const PlanarMonteCarloOptions& rates = monte_carlo_options_;
+  image_recovery_ = other_recovery_ = RecoveryAverages(rates.recovery_alpha_slow, rates.recovery_alpha_fast);
 }
 
 template <typename Draw>
@@ -108,6 +86,7 @@ void PlanarMonteCarlo::drawAll(int particles, Draw&& draw) {
     particle.log_w = 0;
   }
   updates_ = 0;
+  forgetLikelihoods();
   normalize();
 }
 
@@ -138,17 +117,26 @@ void PlanarMonteCarlo::scatterNearby(double share) {
 }
 
 void PlanarMonteCarlo::scatterAnywhere(double share) {
-  replaceParticles(share, [&] { return anywhere_.draw(random_); });
+  if (anywhere_.volume() > 0) replaceParticles(share, [&] { return anywhere_.draw(random_); });
 }
 
 void PlanarMonteCarlo::update(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame,
                               std::span<const PoseMode> modes) {
-  if (action) predict(*action);
-  if (!frame) return;
+  const CParticleList before = m_particles;
+  try {
+    if (action) predict(*action);
+    if (frame) correct(*frame, modes);
+  } catch (...) {
+    m_particles = before;
+    throw;
+  }
+}
+
+void PlanarMonteCarlo::correct(const mrpt::obs::CSensoryFrame& frame, std::span<const PoseMode> modes) {
   drawn_anew_.assign(m_particles.size(), false);
   recover();
   inject(modes);
-  weigh(*frame);
+  weigh(frame);
   resample();
 }
 

@@ -19,10 +19,12 @@ using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
 void PoseWithCovariance::check() const {
   PoseBox{robot_in_map.x, robot_in_map.x, robot_in_map.y, robot_in_map.y, robot_in_map.phi, robot_in_map.phi}.check();
+  constexpr double max_covariance = 1e14;  // m^2: of the farthest pose
   const double scale = covariance.cwiseAbs().maxCoeff();
   if (!covariance.allFinite() || !covariance.isApprox(covariance.transpose(), 1e-6) ||
       EigenSolver(covariance).eigenvalues().minCoeff() < -1e-6 * scale)
     throw std::invalid_argument("the covariance is not symmetric positive semidefinite");
+  if (scale > max_covariance) throw std::invalid_argument("the covariance goes beyond 1e14");
 }
 
 std::function<PlanarPose()> PoseWithCovariance::sampler(Random& random) const {

@@ -6,14 +6,14 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <mutex>
 #include <set>
 #include <stdexcept>
-#include <system_error>
-#include <thread>
 
+#include "in_parallel.h"
 #include "vmcl/mapping/map_builder.h"
 #include "vmcl/mapping/map_file.h"
 #include "vmcl/mrpt/camera_observation.h"
@@ -188,20 +188,15 @@ double VisualKeyframeMap::addLogLikelihoods(const mrpt::obs::CObservation& obser
                                             std::span<double> log_likelihoods) const try {
   const auto measurement = state_->measurement(observation, options_);
   if (!measurement || !measurement->likelihood) return 0;
-  const std::size_t count = robot_in_map.size(), workers = static_cast<std::size_t>(threads);
-  const auto weigh = [&](std::size_t worker) {
-    const std::size_t first = count * worker / workers, size = count * (worker + 1) / workers - first;
-    measurement->addLogLikelihoods(robot_in_map.subspan(first, size), log_likelihoods.subspan(first, size));
+  std::vector<double> values(robot_in_map.size());
+  const auto weigh = [&](std::size_t first, std::size_t size) {
+    measurement->addLogLikelihoods(robot_in_map.subspan(first, size), std::span(values).subspan(first, size));
   };
-  std::vector<std::jthread> others;
-  others.reserve(workers);
-  std::size_t worker = 1;
-  try {
-    for (; worker < workers; ++worker) others.emplace_back(weigh, worker);
-  } catch (const std::system_error&) {  // no more threads are to be had: this one does the rest
-  }
-  for (; worker < workers; ++worker) weigh(worker);
-  weigh(0);
+  const std::size_t made = std::min<std::size_t>(1, values.size());  // what the first pose makes serves all
+  weigh(0, made);
+  inParallel(static_cast<std::size_t>(threads), values.size() - made,
+             [&](std::size_t first, std::size_t size) { weigh(made + first, size); });
+  std::transform(values.begin(), values.end(), log_likelihoods.begin(), log_likelihoods.begin(), std::plus<>());
   return measurement->independentMatches();
 } catch (const std::exception& error) {
   state_->tell(errorMessage(error));

@@ -68,6 +68,9 @@ class HealthMonitor {
   /// Forgets all: the particles start anew.
   void restart();
 
+  /// They were those of another map.
+  void forgetContradictions() { health_.contradictions = 0; }
+
   const Health& update(const UpdateEvidence& evidence);
   const Health& health() const { return health_; }
 

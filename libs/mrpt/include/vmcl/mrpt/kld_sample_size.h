@@ -16,6 +16,8 @@ namespace vmcl {
 /// taken as the probability that it is documented as (AMCL itself takes the number for the normal quantile).
 class KldSampleSize {
  public:
+  static constexpr int most_particles = 10'000'000;
+
   /// Throws std::invalid_argument naming the key out of range.
   explicit KldSampleSize(const mrpt::slam::TKLDParams& options);
 

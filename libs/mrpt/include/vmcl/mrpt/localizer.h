@@ -37,16 +37,16 @@ struct LocalizationFrame {
 ///     localizer.process(movement, observations);                  // whenever there are new ones
 ///     vmcl::PoseWithCovariance pose = localizer.estimate();       // good while health().status is tracking
 ///
-/// Nothing that comes in makes it throw once it is made, but a bad map or initial pose: broken or repeated observations
-/// and movements are left out and named by takeProblems(). Not thread safe; one Localizer of a process runs at a time,
-/// unless each has its own monte_carlo.motion_model.
+/// Nothing that comes in makes it throw once it is made, but a bad map or start: broken or repeated observations
+/// and movements are left out and named by takeProblems(). Not thread safe, and one Localizer of a process runs at a
+/// time: they share MRPT's random generator.
 class Localizer {
  public:
   /// Without map and start. Throws std::invalid_argument naming the bad option.
   explicit Localizer(const LocalizerOptions& options);
 
   /// With the map, starting where the configuration says. Throws std::invalid_argument for options that do not go
-  /// together.
+  /// together, std::logic_error for a start anywhere in a map that does not tell where the robot may be.
   Localizer(const LocalizationConfig& config, mrpt::maps::CMultiMetricMap::Ptr maps);
 
   /// Localizes in this map from now on; the particles stay where they are. `extent`: where the robot may be if the map
@@ -57,7 +57,7 @@ class Localizer {
   /// std::invalid_argument for a pose or covariance that is none.
   void setInitialPose(const PoseWithCovariance& pose);
 
-  /// The robot may be anywhere in the map.
+  /// The robot may be anywhere in the map. Throws std::logic_error when the map does not tell where that is.
   void globalLocalization();
 
   /// The next observation is used even if the robot has not moved.
@@ -65,7 +65,7 @@ class Localizer {
 
   /// Takes in observations made at one time and the action that led to it from those before: one of MRPT, or the
   /// movement that the odometry tells of, in the robot's frame. Nothing comes back when nothing was used: no start
-  /// given, not moved by update_min_d or update_min_a, or nothing that a map can use.
+  /// given, not moved by update_min_d or update_min_a (while the odometry tells so), or nothing that a map can use.
   std::optional<LocalizationFrame> process(const mrpt::obs::CActionCollection* action,
                                            const mrpt::obs::CSensoryFrame& observations);
   std::optional<LocalizationFrame> process(const PlanarPose& movement, const mrpt::obs::CSensoryFrame& observations);
@@ -107,7 +107,10 @@ class Localizer {
   std::optional<LocalizationFrame> addOdometry(const mrpt::obs::CObservationOdometry& reading);
   mrpt::obs::CActionCollection actionOf(const PlanarPose& movement) const;
   void allowForStoppedOdometry(double time);
-  LocalizationFrame report(double time);
+  LocalizationFrame report(double time, const PoseCluster& cluster);
+  std::nullopt_t leaveOut(const std::exception& error);
+  bool noteSilence(double time);
+  double timeOf(const mrpt::obs::CSensoryFrame& frame) const;
   UpdateEvidence evidence(const Used& used, const PoseCluster& cluster);
   void countSteadyFrames(const PoseCluster& cluster, UpdateEvidence& evidence);
   void recover(double time);
@@ -127,7 +130,8 @@ class Localizer {
   int steps_to_skip_ = 0;
   std::optional<PlanarPose> expected_;  ///< the cluster of the last update, moved by the odometry since
   int steady_frames_ = 0;               ///< updates in a row with a narrow cluster where it was expected
-  std::optional<double> updated_at_;    ///< s: when an observation was last used; nothing: the start is there
+  std::optional<double> updated_at_;    ///< s: when the last update was; nothing: the start is there
+  std::optional<double> seen_at_;       ///< s: when one that could be used last came, or its absence was last noted
   bool odometry_stopped_ = false;
   std::optional<double> lost_at_;  ///< s
   bool scattered_nearby_ = false;  ///< since then

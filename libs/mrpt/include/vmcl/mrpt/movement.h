@@ -8,7 +8,8 @@
 
 namespace vmcl {
 
-/// How the robot moved by an action, on the plane, in its frame before; nothing when the action tells of no movement.
+/// How the robot moved by an action, on the plane, in its frame before; nothing when the action tells of no movement,
+/// or of one without its change of pose.
 std::optional<mrpt::poses::CPosePDFGaussian> movementOf(const mrpt::obs::CActionCollection* action);
 
 }  // namespace vmcl

@@ -5,19 +5,19 @@
 
 #include <map>
 #include <string>
-#include <tuple>
+#include <utility>
 
 namespace vmcl {
 
-/// Finds observations that come twice or out of order: not newer than the last of the same sensor (class, label and
-/// mount), by up to 10 s: more is a clock set anew. Observations without a time are always new.
+/// Finds observations that come twice or out of order: not newer than the last of the same sensor (class and
+/// label), by up to 10 s: more is a clock set anew. Observations without a time are always new.
 class ObservationOrder {
  public:
   /// Remembers the observation, if it is new.
   bool isNew(const mrpt::obs::CObservation& observation);
 
  private:
-  std::map<std::tuple<std::string, std::string, std::string>, double> last_;  ///< s
+  std::map<std::pair<std::string, std::string>, double> last_;  ///< s
 };
 
 }  // namespace vmcl

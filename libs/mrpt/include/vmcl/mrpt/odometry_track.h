@@ -26,8 +26,11 @@ class OdometryTrack {
   /// The next reading is no movement, as when the robot has been carried off.
   void interrupt() { reading_.reset(); }
 
-  /// How long before this time (s) the last reading was; 0 if there has been none.
-  double silentFor(double time) const { return reading_ ? time - reading_->time : 0; }
+  /// Whether there have been readings, the last over 0.5 s before this time (s).
+  bool hasStopped(double time) const {
+    constexpr double patience = 0.5;
+    return reading_ && time - reading_->time > patience;
+  }
 
  private:
   struct Reading {

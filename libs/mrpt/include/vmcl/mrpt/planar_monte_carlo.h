@@ -58,7 +58,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   using KldOptions = mrpt::slam::TKLDParams;
   using ParticleFilterOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
 
-  /// Throws std::invalid_argument naming the key that asks for what is not supported.
+  /// Throws std::invalid_argument naming the key that is out of range or asks for what is not supported.
   static void check(const ParticleFilterOptions& options);
 
   /// `anywhere`: where a lost robot may be. Seeds MRPT's process-wide generator, which the motion models draw from: at
@@ -78,13 +78,13 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   void diffuse(double position_deviation, double heading_deviation);
 
   /// Draws a share of the particles, chosen at random, anew: at random distances of about 1 m and 30 deg (each a
-  /// standard deviation) of where a particle was, or anywhere in the map.
+  /// standard deviation) of where a particle was, or anywhere in the map, if it tells where that is.
   void scatterNearby(double share);
   void scatterAnywhere(double share);
 
   /// One step: prediction by the action, injection of the modes, weighing by the observations, resampling. Without an
   /// action the robot has stood still; without a frame there is only the prediction. Throws std::runtime_error when the
-  /// action's noise or a map's likelihood is not finite.
+  /// action's noise or a map's likelihood is not finite, and what a map throws; the particles are then as before.
   void update(const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* frame,
               std::span<const PoseMode> modes = {});
 
@@ -95,8 +95,10 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   template <typename Draw>
   void drawAll(int particles, Draw&& draw);
   void predict(const mrpt::obs::CActionCollection& action);
+  void correct(const mrpt::obs::CSensoryFrame& frame, std::span<const PoseMode> modes);
   void inject(std::span<const PoseMode> modes);
   void recover();
+  void forgetLikelihoods();
   void weigh(const mrpt::obs::CSensoryFrame& frame);
   void judge(RecoveryAverages& recovery, std::span<const double> log_likelihoods, double factor) const;
   PoseDensity density() const;

@@ -16,7 +16,7 @@ struct PoseWithCovariance {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi): m, m, rad
 
   /// Throws std::invalid_argument: a value that is not finite or beyond 10,000 km, or a covariance that is not
-  /// symmetric positive semidefinite.
+  /// symmetric positive semidefinite or goes beyond 1e14 m^2.
   void check() const;
 
   /// A source of poses drawn from it, for as long as `random` lives.
