@@ -82,7 +82,8 @@ void writeAll(const std::filesystem::path& directory, bool tables_only, const Lo
   writeSummary(directory / "summary.json", run);
   writeHealth(directory / "health.csv", run.frames);
   writeHealthSummary(directory / "health.json", run.frames);
-  savePose(directory / "pose.yaml", localizer.estimate());
+  std::filesystem::remove(directory / "pose.yaml");  // of an earlier run
+  if (run.frames.back().localized) savePose(directory / "pose.yaml", localizer.estimate());
   if (tables_only) return;
   writeScene(directory / "scene.3Dscene", run, localizer);
   drawPath(directory / "path", run, localizer.maps());

@@ -191,8 +191,18 @@ TEST_F(Ini, GarbageMapFileIsNamed) {
   }
 }
 
+TEST_F(Ini, AGridWithoutAFileIsRefused) {
+  try {
+    loadMaps(load());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no .simplemap or .gridmap is given"), std::string::npos) << error.what();
+  }
+  EXPECT_NO_THROW(loadMaps(loadLocalizationConfig(write(), {}, {}, {{}, Sensors::odometry})));
+}
+
 TEST_F(Ini, AVisualMapWithoutContentIsRefused) {
-  sections_["MetricMap"]["visualKeyframes_count"] = "1";
+  sections_["MetricMap"] = {{"visualKeyframes_count", "1"}};
   EXPECT_THROW(loadMaps(load()), std::runtime_error);
 }
 

@@ -46,7 +46,12 @@ CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config) {
   } catch (const std::exception& error) {
     throw std::runtime_error(config.ini_file.string() + ": " + errorMessage(error));
   }
-  if (!config.map_file.empty()) fillFromFile(*maps, config.map_file);
+  if (!config.map_file.empty()) {
+    fillFromFile(*maps, config.map_file);
+  } else if (!config.odometry_only && maps->mapByClass<mrpt::maps::COccupancyGridMap2D>()) {
+    throw std::runtime_error(config.ini_file.string() +
+                             ": [MetricMap] occupancyGrid_count = 1, but no .simplemap or .gridmap is given");
+  }
   try {
     refuseEmptyVisualMaps(*maps);
   } catch (const std::exception& error) {
