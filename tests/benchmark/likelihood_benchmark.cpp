@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time of the likelihood per match and pose (the inverse of items_per_second): one pose at a time, and many at once on
 // each instruction set that this machine has. Near: particles about the truth; far: hypotheses anywhere.
-#include "instruction_sets.h"
+#include "vmcl/geometry/instruction_sets.h"
 
 #include <benchmark/benchmark.h>
 #include <hwy/highway.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PoseLikelihood::evaluate against the likelihood of one pose, on every instruction set that this machine has.
-#include "instruction_sets.h"
+#include "vmcl/geometry/instruction_sets.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>

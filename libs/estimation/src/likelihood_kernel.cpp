@@ -3,7 +3,7 @@
 // sifted out in single precision. The residuals of the others are small differences of large numbers and taken in
 // double precision, what follows from them in single.
 
-#include "instruction_sets.h"
+#include "vmcl/geometry/instruction_sets.h"
 
 // Compiled once for each instruction set, that of every machine of its kind included; the best for the machine is
 // chosen when it runs.

@@ -89,7 +89,9 @@ class PointView {
     offset_ = -pixel_from_map_ * map_from_camera.translation();
   }
 
-  /// Reprojection: the pixel noise plus the point's covariance carried into the image.
+  /// Reprojection: the pixel noise plus the point's covariance carried into the image. Without derivatives, only the
+  /// likelihood ratio.
+  template <bool with_derivatives>
   void evaluate(const Eigen::Vector2d& pixel, const Eigen::Vector3d& point, const Eigen::Matrix3d& covariance,
                 MatchResidual& result) const {
     result.likelihood_ratio = 0;
@@ -101,12 +103,13 @@ class PointView {
     result.pixel_by_point = (pixel_from_map_.topRows<2>() - predicted * pixel_from_map_.row(2)) * inverse_depth;
     const double largest_variance = sigma2_ + result.pixel_by_point.squaredNorm() * covariance.trace();
     if (result.pixel_error.squaredNorm() > cutoff_ * largest_variance) return;
-    result.arm = point - position_;
-    result.scale = 1;
     Eigen::Matrix2d S = result.pixel_by_point * covariance * result.pixel_by_point.transpose();
     S.diagonal().array() += sigma2_;
     result.setLikelihood(S, area_, cutoff_);
     result.likelihood_ratio *= nearFade(h.z() - min_depth);
+    if (!with_derivatives) return;
+    result.arm = point - position_;
+    result.scale = 1;
     result.noise_fit = sigma2_ * (result.information * result.pixel_error).squaredNorm();
     result.noise_freedom = sigma2_ * result.information.trace();
   }

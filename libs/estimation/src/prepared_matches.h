@@ -35,7 +35,7 @@ struct PoseLikelihood::Prepared {
     for (const PointGroup& group : matches.points) {
       const PointView view(matches.query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options);
       for (std::size_t i = 0; i < group.pixel.size(); ++i) {
-        view.evaluate(group.pixel[i], group.point_in_map[i], group.covariance[i], residual);
+        view.template evaluate<with_derivatives>(group.pixel[i], group.point_in_map[i], group.covariance[i], residual);
         residual.likelihood_ratio /= group.outlier_density[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }

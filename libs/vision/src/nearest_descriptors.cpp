@@ -2,9 +2,7 @@
 // Brute force, a reference descriptor a lane. SIFT descriptors are bytes: the sums of their products stay below 2^24,
 // so that single precision is exact.
 
-/// Instruction sets to compile nothing for; read by Highway. Vectors of SVE and RVV are sizeless types, which no array
-/// can hold; few processors have SSSE3 and not SSE4.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "vmcl/geometry/instruction_sets.h"
 
 // Compiled once for each instruction set, that of every machine of its kind included; the best for the machine is
 // chosen when it runs.
