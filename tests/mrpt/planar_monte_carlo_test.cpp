@@ -41,38 +41,41 @@ TEST(PlanarMonteCarlo, WeightsAreEqualAfterResampling) {
   for (const auto& particle : filter.m_particles) EXPECT_DOUBLE_EQ(particle.log_w, -std::log(500.0));
 }
 
+/// All poses are as likely, and when the likelihood drops the filter scatters particles.
+struct RecoveringSetup : FilterSetup {
+  double level = 0;  ///< log likelihood of any pose
+
+  RecoveringSetup() {
+    options.recovery_alpha_slow = 0.001;
+    options.recovery_alpha_fast = 0.5;
+    log_likelihood = [this](const PlanarPose&) { return level; };
+  }
+};
+
 TEST(PlanarMonteCarlo, RecoversWithRandomParticlesWhenTheLikelihoodDrops) {
-  FilterSetup setup;
-  setup.options.recovery_alpha_slow = 0.001;
-  setup.options.recovery_alpha_fast = 0.5;
-  double level = 0;
-  setup.log_likelihood = [&](const PlanarPose&) { return level; };
+  RecoveringSetup setup;
   auto filter = setup.make({0, 0, 0, 0, 0, 0}, 1000);
   const auto frame = someObservation();
   const auto elsewhere = [](const PlanarPose& p) { return std::hypot(p.x, p.y) > 0.1; };
   filter.update(nullptr, &frame);
   filter.update(nullptr, &frame);
   EXPECT_EQ(weightWhere(filter, elsewhere), 0);
-  level = -5;
+  setup.level = -5;
   filter.update(nullptr, &frame);  // the averages notice
   filter.update(nullptr, &frame);  // and act: w_slow = 0.999, w_fast = 0.503
   EXPECT_NEAR(weightWhere(filter, elsewhere), 1 - 0.50337 / 0.99901, 0.002);
 }
 
 TEST(PlanarMonteCarlo, LikelihoodsBeforeAStartOrOfAnotherMapDoNotCount) {
-  FilterSetup setup;
-  setup.options.recovery_alpha_slow = 0.001;
-  setup.options.recovery_alpha_fast = 0.5;
-  double level = 0;
-  setup.log_likelihood = [&](const PlanarPose&) { return level; };
+  RecoveringSetup setup;
   const auto frame = someObservation();
   const PoseRegion origin({0, 0, 0, 0, 0, 0});
   const auto elsewhere = [](const PlanarPose& p) { return std::hypot(p.x, p.y) > 0.1; };
   for (const bool restarted : {true, false}) {
-    level = 0;
+    setup.level = 0;
     auto filter = setup.make({0, 0, 0, 0, 0, 0}, 1000);
     filter.update(nullptr, &frame);
-    level = -5;
+    setup.level = -5;
     filter.update(nullptr, &frame);  // the averages notice
     if (restarted)
       filter.start(origin, 1000);
@@ -84,16 +87,12 @@ TEST(PlanarMonteCarlo, LikelihoodsBeforeAStartOrOfAnotherMapDoNotCount) {
 }
 
 TEST(PlanarMonteCarlo, StaysWhereItIsInAMapOfNoKnownExtent) {
-  FilterSetup setup;
-  setup.options.recovery_alpha_slow = 0.001;
-  setup.options.recovery_alpha_fast = 0.5;
-  double level = 0;
-  setup.log_likelihood = [&](const PlanarPose&) { return level; };
+  RecoveringSetup setup;
   PlanarMonteCarlo filter(setup.maps(), setup.kld, setup.filter, setup.options, PoseRegion(PoseBox{}));
   filter.start(PoseRegion({3, 3, 2, 2, 1, 1}), 100);
   const auto before = numbersOf(filter);
   const auto frame = someObservation();
-  for (level = 0; level > -10; --level) filter.update(nullptr, &frame);
+  for (setup.level = 0; setup.level > -10; --setup.level) filter.update(nullptr, &frame);
   filter.scatterAnywhere(0.5);
   EXPECT_EQ(numbersOf(filter), before);
 }
