@@ -17,6 +17,7 @@ struct MapArguments {
   std::string output;
   std::string trajectory;
   std::string info;
+  std::vector<std::string> masks;
   std::string features = "sift";
   double keyframe_rotation_deg = MapBuilderOptions().keyframe_rotation / degree;
   double sigma_heading_deg = MapBuilderOptions().sigma_heading / degree;
@@ -50,6 +51,15 @@ void print(const MapBuildReport& report, const KeyframeMap& map, const PosedImag
   }
 }
 
+/// Of the image's area.
+double maskedShare(const MapCamera& camera) {
+  const auto& [width, height] = std::pair(camera.calibration.pinhole.width, camera.calibration.pinhole.height);
+  int masked = std::min(camera.mask_rows_from_top, height) * width;
+  for (std::size_t i = static_cast<std::size_t>(masked); i < camera.mask.pixels.size(); ++i)
+    masked += camera.mask.pixels[i] >= 128;
+  return static_cast<double>(masked) / (static_cast<double>(width) * height);
+}
+
 int runInfo(const std::string& file) {
   const KeyframeMap map = loadMap(file);
   std::cout << file << ": " << map.keyframes.size() << " keyframes, " << map.landmarks.size() << " landmarks, "
@@ -62,10 +72,23 @@ int runInfo(const std::string& file) {
               << ", fx " << pinhole.fx << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy
               << ", distortion " << std::setprecision(4)
               << Eigen::Map<const Eigen::RowVector<double, 5>>(camera.calibration.distortion.data()) << ", mounted at "
-              << camera.robot_from_camera.translation().transpose() << " m, " << camera.mask_rows_from_top
-              << " rows masked\n";
+              << camera.robot_from_camera.translation().transpose() << " m, " << std::setprecision(0)
+              << 100 * maskedShare(camera) << " % masked\n";
   }
   return exit_done;
+}
+
+/// Masks by camera label, from words LABEL=FILE; a word FILE is for every other camera and has the label "".
+std::map<std::string, Image> readMasks(const std::vector<std::string>& words) {
+  std::map<std::string, Image> masks;
+  for (const std::string& word : words) {
+    const auto sign = word.find('=');
+    const std::string label = sign == std::string::npos ? "" : word.substr(0, sign);
+    if (!masks.try_emplace(label, readImage(word.substr(sign == std::string::npos ? 0 : sign + 1))).second)
+      throw std::runtime_error("map: more than one --mask for " +
+                               (label.empty() ? "all cameras" : "camera '" + label + "'"));
+  }
+  return masks;
 }
 
 int runMap(const MapArguments& arguments) {
@@ -78,16 +101,20 @@ int runMap(const MapArguments& arguments) {
   AtomicFile(arguments.output);  // fails now rather than after the work
   ProgressBar bar;
   MapBuilder builder({}, arguments.builderOptions());
-  PosedImages images(builder);
+  PosedImages images(builder, readMasks(arguments.masks));
   const auto reading = [&](double share) { bar.update("reading", share); };
   if (arguments.readsSimpleMap())
     images.readSimpleMap(arguments.input, reading);
   else
     images.readRawlog(arguments.input, readTumTrajectory(arguments.trajectory), reading);
+  if (const std::string label = images.maskWithoutCamera(); !label.empty())
+    throw std::runtime_error("map: --mask: no camera '" + label + "' in " + arguments.input);
   if (images.images() == 0)
     throw std::runtime_error(images.problems().empty() ? arguments.input + ": no camera images"
                                                        : images.problems().inOneLine());
-  if (builder.keyframeCount() == 0) throw std::runtime_error(arguments.input + ": no image has a pose");
+  if (builder.keyframeCount() == 0)
+    throw std::runtime_error(images.problems().empty() ? arguments.input + ": no image has a pose"
+                                                       : images.problems().inOneLine());
   const auto [map, report] = builder.build([&](std::string_view stage, double share) { bar.update(stage, share); });
   saveMap(arguments.output, map);
   images.problems().print("map");
@@ -103,6 +130,9 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   verb.add_option("--mask-rows-from-top", options.features.mask_rows_from_top,
                   "rows of the image that show the robot itself")
       ->capture_default_str();
+  verb.add_option("--mask", arguments.masks,
+                  "[LABEL=]FILE: image of the size of a camera's that is white where it shows the robot itself")
+      ->allow_extra_args(false);
   verb.add_option("--keyframe-distance", options.keyframe_distance, "a new keyframe after this way (m)")
       ->capture_default_str();
   verb.add_option("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn")->capture_default_str();

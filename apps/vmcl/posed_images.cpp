@@ -12,9 +12,24 @@
 #include "vmcl/mrpt/pose_conversion.h"
 
 namespace vmcl {
+
+Image PosedImages::maskOf(const std::string& label) const {
+  auto mask = masks_.find(label);
+  if (mask == masks_.end()) mask = masks_.find("");
+  return mask == masks_.end() ? Image() : mask->second;
+}
+
+std::string PosedImages::maskWithoutCamera() const {
+  for (const auto& entry : masks_)
+    if (!entry.first.empty() && !camera_of_label_.contains(entry.first)) return entry.first;
+  return {};
+}
+
 int PosedImages::cameraOf(const CameraObservation& seen) {
   const auto [entry, is_new] = camera_of_label_.try_emplace(seen.label, 0, seen.calibration);
-  if (is_new) entry->second.first = builder_.addCamera({seen.label, seen.calibration, seen.robot_from_camera, 0});
+  if (is_new)
+    entry->second.first =
+        builder_.addCamera({seen.label, seen.calibration, seen.robot_from_camera, 0, maskOf(seen.label)});
   if (!sameCalibration(entry->second.second, seen.calibration))
     throw std::runtime_error("camera '" + seen.label + "': other intrinsics than in its first image");
   return entry->second.first;

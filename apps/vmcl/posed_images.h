@@ -19,13 +19,17 @@ using ReadProgress = std::function<void(double share)>;
 /// Feeds the camera images of a log to a map builder. One sensor label is one camera of the map.
 class PosedImages {
  public:
-  explicit PosedImages(MapBuilder& builder) : builder_(builder) {}
+  /// `masks` by the label of a camera; that of "" is for all others.
+  PosedImages(MapBuilder& builder, std::map<std::string, Image> masks) : builder_(builder), masks_(std::move(masks)) {}
 
   /// Images of a rawlog with the poses of a trajectory. Images before, after or in a gap of it are counted and skipped.
   void readRawlog(const std::filesystem::path& file, const Trajectory& trajectory, const ReadProgress& progress);
 
   /// Images of a CSimpleMap with its poses. Throws std::runtime_error naming the file when it is none.
   void readSimpleMap(const std::filesystem::path& file, const ReadProgress& progress);
+
+  /// Label of a mask for a camera of which no image was seen; empty: there is none.
+  std::string maskWithoutCamera() const;
 
   int images() const { return images_; }
   int imagesWithoutPose() const { return images_without_pose_; }
@@ -38,7 +42,10 @@ class PosedImages {
              const std::function<std::optional<Rigid3>(double)>& pose_at);
   int cameraOf(const struct CameraObservation& seen);
 
+  Image maskOf(const std::string& label) const;
+
   MapBuilder& builder_;
+  std::map<std::string, Image> masks_;
   std::map<std::string, std::pair<int, CameraCalibration>> camera_of_label_;
   int images_ = 0;
   int images_without_pose_ = 0;

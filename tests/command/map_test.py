@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`vmcl map`: from a simplemap, and from a log with a trajectory; broken ones are refused."""
 from command import SAMPLE, SOME_INPUT_BAD, CommandTest, main
+from png import grey_png
 
 LOG = SAMPLE / 'map.rawlog'
 POSES = SAMPLE / 'map.groundtruth.tum'
@@ -27,6 +28,23 @@ class MapTest(CommandTest):
         for name in ('once', 'again'):
             self.succeed('map', SIMPLE_MAP, '-o', f'{name}.vmap', '--max-features', 100)
         self.assertEqual(self.path('again.vmap').read_bytes(), self.path('once.vmap').read_bytes())
+
+    def test_masks(self):
+        """What is masked has no features: nothing is left of a view all masked, and the map keeps the mask."""
+        few = self.first_poses(2)
+        self.write('half.png', grey_png([[0] * 320 + [255] * 320] * 480))
+        self.succeed(*self.map_of(LOG, few), '--mask', 'camera=half.png')
+        self.assertIn('50 % masked', self.succeed('map', '--info', 'out.vmap'))
+        self.path('out.vmap').unlink()
+        self.write('all.png', grey_png([[255] * 640] * 480))
+        self.write('small.png', grey_png([[0] * 20] * 10))
+        self.write('broken.png', 'none')
+        for masks, words in ((['all.png'], ['features']), (['small.png'], ['map.rawlog', 'mask']),
+                             (['broken.png'], ['broken.png']), (['half.png', 'half.png'], ['--mask']),
+                             (['nose=half.png'], ['nose']), (['nowhere.png'], ['nowhere.png'])):
+            with self.subTest(masks):
+                options = [word for mask in masks for word in ('--mask', mask)]
+                self.assert_refused([*self.map_of(LOG, few), *options], *words)
 
     def test_broken_logs(self):
         for broken in (b'', b'garbage' * 1000, LOG.read_bytes()[:40], SIMPLE_MAP.read_bytes()):

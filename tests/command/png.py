@@ -5,12 +5,17 @@ import struct
 import zlib
 
 
-def noise_png(width, height, seed=1):
-    """The bytes of a grey PNG of noise."""
+def grey_png(rows):
+    """The bytes of a grey PNG of these pixels, a list or bytes a row."""
     def chunk(kind, data):
         return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
 
+    header = struct.pack('>IIBBBBB', len(rows[0]), len(rows), 8, 0, 0, 0, 0)
+    data = b''.join(b'\0' + bytes(row) for row in rows)
+    return b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', zlib.compress(data)) + chunk(b'IEND', b'')
+
+
+def noise_png(width, height, seed=1):
+    """The bytes of a grey PNG of noise."""
     generator = random.Random(seed)
-    rows = b''.join(b'\0' + generator.randbytes(width) for _ in range(height))
-    header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
-    return b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b'')
+    return grey_png([generator.randbytes(width) for _ in range(height)])

@@ -52,6 +52,11 @@ TEST_F(MapFile, KeepsEveryValue) {
   EXPECT_EQ(loaded.cameras[0].label, "front");
   EXPECT_EQ(loaded.cameras[0].calibration.distortion, map.cameras[0].calibration.distortion);
   EXPECT_EQ(loaded.cameras[0].robot_from_camera.matrix(), map.cameras[0].robot_from_camera.matrix());
+  EXPECT_TRUE(loaded.cameras[0].mask.view().empty());
+  EXPECT_EQ(loaded.cameras[1].mask.width, 20);
+  EXPECT_EQ(loaded.cameras[1].mask.pixels, map.cameras[1].mask.pixels);
+  EXPECT_EQ(loaded.cameras[1].depth, DepthSource::range);
+  EXPECT_EQ(loaded.keyframes[2].session, 1);
   EXPECT_EQ(loaded.keyframes[2].map_from_robot.matrix(), map.keyframes[2].map_from_robot.matrix());
   EXPECT_EQ(loaded.keyframes[2].features.pixels, map.keyframes[2].features.pixels);
   EXPECT_EQ(loaded.keyframes[2].features.descriptors, map.keyframes[2].features.descriptors);
@@ -60,6 +65,16 @@ TEST_F(MapFile, KeepsEveryValue) {
   EXPECT_EQ(loaded.landmarks[3].covariance, map.landmarks[3].covariance);
   EXPECT_EQ(loaded.vocabulary.words(), map.vocabulary.words());
   EXPECT_EQ(loaded.place_descriptors, map.place_descriptors);
+}
+
+// The file was written by the program that wrote version 2.
+TEST_F(MapFile, OpensTheVersionBefore) {
+  KeyframeMap expected = smallMap();
+  expected.cameras[1].mask = {};
+  expected.cameras[1].depth = DepthSource::none;
+  expected.keyframes[2].session = 0;
+  const KeyframeMap loaded = loadMap(std::filesystem::path(VMCL_TEST_DATA_DIR) / "version2.vmap");
+  EXPECT_EQ(encodeMap(loaded), encodeMap(expected));
 }
 
 TEST_F(MapFile, RefusesEveryCutOffLength) {
@@ -118,13 +133,13 @@ TEST_F(MapFile, NamesFileAndReason) {
   std::string bytes = encodeMap(smallMap());
   bytes[8] = map_file_version + 1;
   std::ofstream(folder_ / "newer.vmap", std::ios::binary) << bytes;
+  bytes[8] = oldest_map_file_version - 1;
+  std::ofstream(folder_ / "older.vmap", std::ios::binary) << bytes;
   std::ofstream(folder_ / "other.vmap") << "an image, perhaps";
   std::ofstream(folder_ / "empty.vmap");
-  const std::pair<const char*, const char*> cases[] = {{"newer.vmap", "version 3"},
-                                                       {"other.vmap", "not a .vmap"},
-                                                       {"empty.vmap", "not a .vmap"},
-                                                       {"missing.vmap", "no such file"},
-                                                       {"", "not a regular file"}};
+  const std::pair<const char*, const char*> cases[] = {
+      {"newer.vmap", "of a newer vmcl"}, {"older.vmap", "make the map again"}, {"other.vmap", "not a .vmap"},
+      {"empty.vmap", "not a .vmap"},     {"missing.vmap", "no such file"},     {"", "not a regular file"}};
   for (const auto& [name, reason] : cases) {
     try {
       loadMap(folder_ / name);

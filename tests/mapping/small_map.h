@@ -15,6 +15,11 @@ inline KeyframeMap smallMap(uint64_t seed = 1) {
   camera.robot_from_camera = Eigen::Translation3d(0.1, 0.2, 0.3) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
   map.cameras = {camera, camera};
   map.cameras[1].label = "";
+  map.cameras[1].calibration.pinhole.width = 20;
+  map.cameras[1].calibration.pinhole.height = 15;
+  map.cameras[1].mask = {20, 15, std::vector<uint8_t>(20 * 15)};
+  map.cameras[1].mask.pixels[7 * 20 + 5] = 255;
+  map.cameras[1].depth = DepthSource::range;
   for (int l = 0; l < 4; ++l) {
     const Eigen::Matrix3d root = Eigen::Matrix3d::NullaryExpr([&] { return random.normal(); });
     const Eigen::Matrix3d covariance = root * root.transpose();
@@ -23,7 +28,7 @@ inline KeyframeMap smallMap(uint64_t seed = 1) {
   }
   map.pose_covariance = map.landmarks[1].covariance;
   for (int k = 0; k < 3; ++k) {
-    Keyframe keyframe{0.1 * k, k % 2, toRigid3({random.normal(), 2, random.normal()}), {}, {}};
+    Keyframe keyframe{0.1 * k, k % 2, k / 2, toRigid3({random.normal(), 2, random.normal()}), {}, {}};
     const int count = 3 * k;  // the first has none
     keyframe.features.descriptors.resize(count, 32);
     for (int i = 0; i < count; ++i) {

@@ -29,6 +29,12 @@ void checkCamera(const MapCamera& camera, const std::string& name) {
   }
   checkPose(camera.robot_from_camera, name);
   require(camera.mask_rows_from_top >= 0, name + ": mask_rows_from_top is negative");
+  const PinholeCamera& pinhole = camera.calibration.pinhole;
+  require(
+      camera.mask.view().empty() || (camera.mask.width == pinhole.width && camera.mask.height == pinhole.height &&
+                                     std::ssize(camera.mask.pixels) == std::ptrdiff_t{pinhole.width} * pinhole.height),
+      name + ": the mask has another size than the images");
+  require(camera.depth <= DepthSource::stereo, name + ": unknown source of depth");
 }
 
 void checkCovariance(const Eigen::Matrix3d& covariance, const std::string& name) {
@@ -73,6 +79,7 @@ void KeyframeMap::check() const {
     require(std::isfinite(keyframe.time), name + ": time is not finite");
     require(keyframe.camera >= 0 && keyframe.camera < std::ssize(cameras),
             name + ": no camera " + std::to_string(keyframe.camera));
+    require(keyframe.session >= 0, name + ": session is negative");
     checkPose(keyframe.map_from_robot, name);
     checkFeatures(keyframe.features, feature_options.kind, name);
     require(keyframe.landmark_of_feature.size() == keyframe.features.pixels.size(),

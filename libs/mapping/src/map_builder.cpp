@@ -44,6 +44,7 @@ struct MapBuilder::State {
   std::vector<std::optional<PlanarPose>> last_keyframe;  // per camera
   std::vector<MapCamera> cameras;
   std::vector<Keyframe> keyframes;
+  int session = 0;
   int frames = 0;
 
   bool hasMoved(int camera, const PlanarPose& map_from_robot) const {
@@ -56,7 +57,7 @@ struct MapBuilder::State {
 
   void keep(double time, int camera, const PlanarPose& map_from_robot, FeatureSet features) {
     const std::vector<int> no_landmarks(features.pixels.size(), -1);
-    keyframes.push_back({time, camera, toRigid3(map_from_robot), std::move(features), no_landmarks});
+    keyframes.push_back({time, camera, session, toRigid3(map_from_robot), std::move(features), no_landmarks});
     last_keyframe[static_cast<std::size_t>(camera)] = map_from_robot;
   }
 
@@ -101,7 +102,8 @@ bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, cons
   const auto pose = state_->offer(time, camera, map_from_robot);
   if (!pose) return false;
   const auto i = static_cast<std::size_t>(camera);
-  state_->keep(time, camera, *pose, state_->extractors[i].extract(image, state_->cameras[i].calibration));
+  const MapCamera& taken_by = state_->cameras[i];
+  state_->keep(time, camera, *pose, state_->extractors[i].extract(image, taken_by.calibration, taken_by.mask.view()));
   return true;
 }
 

@@ -13,13 +13,15 @@
 // content:
 //   features    kind u8, max_features i32, mask_rows_from_top i32
 //   cameras     count; each: label (count, bytes), width i32, height i32, fx fy cx cy f64, distortion f64[5],
-//               pose f64[12], mask_rows_from_top i32
-//   keyframes   count; each: time f64, camera i32, pose f64[12], feature count, descriptor bytes (count),
+//               pose f64[12], mask_rows_from_top i32, mask bytes (count: 0 or (width * height + 7) / 8),
+//               mask u8[mask bytes] (a bit a pixel, by rows, the lowest bit first), source of depth u8
+//   keyframes   count; each: time f64, camera i32, session i32, pose f64[12], feature count, descriptor bytes (count),
 //               pixels f32[n][2], sizes f32[n], responses f32[n], descriptors u8[n][bytes], landmarks i32[n]
 //   landmarks   count; each: point f64[3], lower triangle of the covariance f64[6], observation count i32
 //   poses       lower triangle of their covariance f64[6]
 //   vocabulary  rows, columns (counts), f32 by columns
 //   places      rows, columns (counts), f32 by columns
+// Version 2 had neither masks nor sources of depth nor sessions.
 
 namespace vmcl {
 namespace {
@@ -69,6 +71,26 @@ Eigen::MatrixXf getMatrix(ByteReader& in) {
   return matrix;
 }
 
+void putMask(ByteWriter& out, const Image& mask) {
+  std::vector<uint8_t> bits((mask.pixels.size() + 7) / 8);
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i)
+    if (mask.pixels[i] >= 128) bits[i / 8] |= static_cast<uint8_t>(1 << i % 8);
+  out.putCount(bits.size());
+  out.putAll(std::span<const uint8_t>(bits));
+}
+
+Image getMask(ByteReader& in, const PinholeCamera& camera) {
+  std::vector<uint8_t> bits(in.getCount(1));
+  in.getAll(std::span<uint8_t>(bits));
+  if (bits.empty()) return {};
+  camera.check();
+  const std::size_t pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  if (bits.size() != (pixels + 7) / 8) throw std::runtime_error("a mask of another size than its images");
+  Image mask{camera.width, camera.height, std::vector<uint8_t>(pixels)};
+  for (std::size_t i = 0; i < pixels; ++i) mask.pixels[i] = (bits[i / 8] >> i % 8 & 1) ? 255 : 0;
+  return mask;
+}
+
 void putCamera(ByteWriter& out, const MapCamera& camera) {
   out.putCount(camera.label.size());
   out.putAll(std::span<const char>(camera.label));
@@ -78,9 +100,11 @@ void putCamera(ByteWriter& out, const MapCamera& camera) {
   out.putAll(std::span<const double>(camera.calibration.distortion));
   putPose(out, camera.robot_from_camera);
   out.put<int32_t>(camera.mask_rows_from_top);
+  putMask(out, camera.mask);
+  out.put(static_cast<uint8_t>(camera.depth));
 }
 
-MapCamera getCamera(ByteReader& in) {
+MapCamera getCamera(ByteReader& in, uint32_t version) {
   MapCamera camera;
   camera.label.resize(in.getCount(1));
   in.getAll(std::span<char>(camera.label));
@@ -90,12 +114,16 @@ MapCamera getCamera(ByteReader& in) {
   in.getAll(std::span<double>(camera.calibration.distortion));
   camera.robot_from_camera = getPose(in);
   camera.mask_rows_from_top = in.get<int32_t>();
+  if (version == 2) return camera;
+  camera.mask = getMask(in, pinhole);
+  camera.depth = static_cast<DepthSource>(in.get<uint8_t>());
   return camera;
 }
 
 void putKeyframe(ByteWriter& out, const Keyframe& keyframe) {
   out.put(keyframe.time);
   out.put<int32_t>(keyframe.camera);
+  out.put<int32_t>(keyframe.session);
   putPose(out, keyframe.map_from_robot);
   const FeatureSet& features = keyframe.features;
   out.putCount(features.pixels.size());
@@ -108,10 +136,11 @@ void putKeyframe(ByteWriter& out, const Keyframe& keyframe) {
   out.putAll(std::span<const int32_t>(keyframe.landmark_of_feature));
 }
 
-Keyframe getKeyframe(ByteReader& in, FeatureKind kind) {
+Keyframe getKeyframe(ByteReader& in, FeatureKind kind, uint32_t version) {
   Keyframe keyframe;
   keyframe.time = in.get<double>();
   keyframe.camera = in.get<int32_t>();
+  if (version > 2) keyframe.session = in.get<int32_t>();
   keyframe.map_from_robot = getPose(in);
   const std::size_t count = in.getCount(feature_bytes);
   const std::size_t descriptor_bytes = in.get<uint32_t>();
@@ -174,16 +203,16 @@ std::string encodeContent(const KeyframeMap& map) {
   return out.take();
 }
 
-KeyframeMap decodeContent(std::string_view content) {
+KeyframeMap decodeContent(std::string_view content, uint32_t version) {
   ByteReader in(content);
   KeyframeMap map;
   map.feature_options.kind = toFeatureKind(in.get<uint8_t>());
   map.feature_options.max_features = in.get<int32_t>();
   map.feature_options.mask_rows_from_top = in.get<int32_t>();
   map.cameras.resize(in.getCount(camera_bytes));
-  for (MapCamera& camera : map.cameras) camera = getCamera(in);
+  for (MapCamera& camera : map.cameras) camera = getCamera(in, version);
   map.keyframes.resize(in.getCount(keyframe_bytes));
-  for (Keyframe& keyframe : map.keyframes) keyframe = getKeyframe(in, map.feature_options.kind);
+  for (Keyframe& keyframe : map.keyframes) keyframe = getKeyframe(in, map.feature_options.kind, version);
   map.landmarks.resize(in.getCount(landmark_bytes));
   for (Landmark& landmark : map.landmarks) landmark = getLandmark(in);
   map.pose_covariance = getCovariance(in);
@@ -212,16 +241,19 @@ KeyframeMap decodeMap(const std::string& bytes) {
   if (!bytes.starts_with(magic)) throw std::runtime_error("not a .vmap file");
   ByteReader in(std::string_view(bytes).substr(magic.size()));
   const auto version = in.get<uint32_t>();
-  if (version != map_file_version)
-    throw std::runtime_error("format version " + std::to_string(version) + ", this program reads version " +
+  if (version > map_file_version)
+    throw std::runtime_error("format version " + std::to_string(version) + " of a newer vmcl: this one reads up to " +
                              std::to_string(map_file_version));
+  if (version < oldest_map_file_version)
+    throw std::runtime_error("format version " + std::to_string(version) +
+                             " of an older vmcl, no longer read: " + "make the map again from its log with `vmcl map`");
   const auto size = in.get<uint64_t>();
   const auto stored_checksum = in.get<uint32_t>();
   if (in.remaining().size() < size) throw std::runtime_error("cut off");
   if (in.remaining().size() > size) throw std::runtime_error("longer than its header says");
   if (checksum(in.remaining()) != stored_checksum) throw std::runtime_error("damaged: wrong checksum");
   try {
-    return decodeContent(in.remaining());
+    return decodeContent(in.remaining(), version);
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("broken content: ") + error.what());
   }

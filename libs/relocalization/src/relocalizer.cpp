@@ -148,7 +148,7 @@ struct Relocalizer::State {
     Stopwatch stopwatch;
     FeatureOptions feature_options = map->feature_options;
     feature_options.mask_rows_from_top = image.mask_rows_from_top;
-    const FeatureSet query = FeatureExtractor(feature_options).extract(image.image, image.calibration);
+    const FeatureSet query = FeatureExtractor(feature_options).extract(image.image, image.calibration, image.mask);
     stopwatch.addTo(result.times.features);
     if (query.size() == 0) return;
     const std::vector<RetrievedPlace> places =

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "image_mask.h"
 #include "vmcl/vision/features.h"
 
 namespace vmcl {
@@ -107,19 +108,22 @@ FeatureExtractor& FeatureExtractor::operator=(FeatureExtractor&&) noexcept = def
 
 const FeatureOptions& FeatureExtractor::options() const { return detector_->options; }
 
-FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibration& calibration) const {
+FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibration& calibration,
+                                     const ImageView& mask) const {
   const FeatureOptions& options = detector_->options;
   checkImage(image, calibration, options);
   FeatureSet features;
   features.kind = options.kind;
   features.descriptors.resize(0, descriptorBytes(options.kind));
-  const cv::Mat grey = visibleGrey(image, options.mask_rows_from_top);
+  const ImageMask hidden(mask, {image.width, image.height}, options.mask_rows_from_top);
+  const cv::Mat grey = hidden.filled(visibleGrey(image, options.mask_rows_from_top));
   if (std::min(grey.cols, grey.rows) < min_image_side) return features;
 
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
   detector_->feature2d->detectAndCompute(grey, cv::noArray(), keypoints, descriptors);
-  const std::vector<int> kept = strongestFirst(keypoints, options.max_features);
+  std::vector<int> kept = strongestFirst(keypoints, options.max_features);
+  std::erase_if(kept, [&](int row) { return hidden.touches(keypoints[static_cast<std::size_t>(row)]); });
   features.descriptors.resize(static_cast<Eigen::Index>(kept.size()), descriptorBytes(options.kind));
   for (int row : kept) {
     const cv::KeyPoint& keypoint = keypoints[static_cast<std::size_t>(row)];

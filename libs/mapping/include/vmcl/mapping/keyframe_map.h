@@ -13,12 +13,21 @@
 
 namespace vmcl {
 
+/// Where a camera's depth comes from.
+enum class DepthSource : uint8_t {
+  none = 0,    ///< from motion alone
+  range = 1,   ///< a range image beside each image
+  stereo = 2,  ///< a second camera beside it
+};
+
 /// A camera of the robot that made the map.
 struct MapCamera {
   std::string label;  ///< sensor label in the log
   CameraCalibration calibration;
   Rigid3 robot_from_camera = Rigid3::Identity();  ///< as estimated by the builder
   int mask_rows_from_top = 0;                     ///< rows that show the robot itself
+  Image mask{};                                   ///< 255 where the image shows the robot itself; empty: nowhere
+  DepthSource depth = DepthSource::none;
 };
 
 /// A scene point seen from several keyframes.
@@ -32,6 +41,7 @@ struct Landmark {
 struct Keyframe {
   double time = 0;  ///< seconds
   int camera = 0;   ///< index into KeyframeMap::cameras
+  int session = 0;  ///< number of the drive that it was taken on
   Rigid3 map_from_robot = Rigid3::Identity();
   FeatureSet features;
   std::vector<int> landmark_of_feature;  ///< index into KeyframeMap::landmarks, -1 where none; one per feature

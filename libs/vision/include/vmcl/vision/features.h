@@ -56,9 +56,11 @@ class FeatureExtractor {
 
   const FeatureOptions& options() const;
 
-  /// Features of an image taken with this camera, strongest first. Throws std::invalid_argument when the image's size
-  /// differs from the calibration's or the mask leaves nothing of it. A blank image has none.
-  FeatureSet extract(const ImageView& image, const CameraCalibration& calibration) const;
+  /// Features of an image taken with this camera, strongest first, none of which reaches into the white of `mask`: a
+  /// grey image of the same size that is white (128 or more) where the robot itself is seen; empty: nowhere. Throws
+  /// std::invalid_argument when a size differs from the calibration's or the masked rows leave nothing of the image. A
+  /// blank image has none.
+  FeatureSet extract(const ImageView& image, const CameraCalibration& calibration, const ImageView& mask = {}) const;
 
  private:
   struct Detector;
