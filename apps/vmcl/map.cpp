@@ -26,7 +26,7 @@ struct MapArguments {
 
   MapBuilderOptions builderOptions() const {
     MapBuilderOptions complete = options;
-    complete.features.kind = featureKindFromName(features);
+    complete.features.choose(features);
     complete.keyframe_rotation = keyframe_rotation_deg * degree;
     complete.sigma_heading = sigma_heading_deg * degree;
     complete.sigma_mount_tilt = sigma_mount_tilt_deg * degree;
@@ -124,7 +124,7 @@ int runMap(const MapArguments& arguments) {
 
 void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   MapBuilderOptions& options = arguments.options;
-  verb.add_option("--features", arguments.features, "orb or sift")->capture_default_str();
+  verb.add_option("--features", arguments.features, "orb, sift, akaze, or the .onnx file of a network")->capture_default_str();
   verb.add_option("--max-features", options.features.max_features, "strongest features kept of an image")
       ->capture_default_str();
   verb.add_option("--mask-rows-from-top", options.features.mask_rows_from_top,

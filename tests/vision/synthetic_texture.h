@@ -44,7 +44,7 @@ inline Image shifted(const Image& image, int right, int down) {
 inline FeatureSet randomFeatures(FeatureKind kind, int count, Random& random) {
   FeatureSet features;
   features.kind = kind;
-  features.descriptors.resize(count, descriptorBytes(kind));
+  features.descriptors.resize(count, kind == FeatureKind::orb ? 32 : kind == FeatureKind::akaze ? 64 : 128);
   for (int i = 0; i < count; ++i) {
     features.pixels.emplace_back(static_cast<float>(random.uniform(0, 640)),
                                  static_cast<float>(random.uniform(0, 480)));

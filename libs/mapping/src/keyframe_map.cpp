@@ -63,7 +63,7 @@ void checkFeatures(const FeatureSet& features, FeatureKind kind, const std::stri
   require(features.sizes.size() == count && features.responses.size() == count &&
               static_cast<std::size_t>(features.descriptors.rows()) == count,
           name + ": feature arrays differ in length");
-  require(count == 0 || features.descriptors.cols() == descriptorBytes(kind),
+  require(count == 0 || isDescriptorLength(kind, features.descriptors.cols()),
           name + ": descriptors have " + std::to_string(features.descriptors.cols()) + " bytes");
   require(std::ranges::all_of(features.pixels, [](const auto& pixel) { return pixel.allFinite(); }) &&
               std::ranges::all_of(features.sizes, finite) && std::ranges::all_of(features.responses, finite),

@@ -93,6 +93,7 @@ int MapBuilder::addCamera(MapCamera camera) {
   of_camera.cameras = {camera};
   of_camera.check();
   state_->extractors.emplace_back(features);
+  state_->options.features.model = state_->extractors.back().options().model;  // with its checksum
   state_->cameras.push_back(std::move(camera));
   state_->last_keyframe.emplace_back();
   return static_cast<int>(state_->cameras.size()) - 1;

@@ -21,7 +21,8 @@
 //   poses       lower triangle of their covariance f64[6]
 //   vocabulary  rows, columns (counts), f32 by columns
 //   places      rows, columns (counts), f32 by columns
-// Version 2 had neither masks nor sources of depth nor sessions.
+//   network     file (count, bytes), its CRC-32 u32; no bytes and 0 where features are not those of a network
+// Version 2 had neither masks nor sources of depth nor sessions nor networks.
 
 namespace vmcl {
 namespace {
@@ -37,13 +38,6 @@ uint32_t checksum(std::string_view bytes) {
   return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-FeatureKind toFeatureKind(uint8_t stored) {
-  const auto kind = static_cast<FeatureKind>(stored);
-  if (kind != FeatureKind::orb && kind != FeatureKind::sift)
-    throw std::runtime_error("unknown feature kind " + std::to_string(stored));
-  return kind;
-}
-
 void putPose(ByteWriter& out, const Rigid3& pose) {
   const Eigen::Matrix<double, 3, 4> rows = pose.matrix().topRows<3>();
   out.putAll(std::span<const double>(rows.data(), 12));
@@ -55,6 +49,17 @@ Rigid3 getPose(ByteReader& in) {
   Rigid3 pose = Rigid3::Identity();
   pose.matrix().topRows<3>() = rows;
   return pose;
+}
+
+void putText(ByteWriter& out, const std::string& text) {
+  out.putCount(text.size());
+  out.putAll(std::span<const char>(text));
+}
+
+std::string getText(ByteReader& in) {
+  std::string text(in.getCount(1), '\0');
+  in.getAll(std::span<char>(text));
+  return text;
 }
 
 void putMatrix(ByteWriter& out, const Eigen::MatrixXf& matrix) {
@@ -92,8 +97,7 @@ Image getMask(ByteReader& in, const PinholeCamera& camera) {
 }
 
 void putCamera(ByteWriter& out, const MapCamera& camera) {
-  out.putCount(camera.label.size());
-  out.putAll(std::span<const char>(camera.label));
+  putText(out, camera.label);
   const PinholeCamera& pinhole = camera.calibration.pinhole;
   for (int size : {pinhole.width, pinhole.height}) out.put<int32_t>(size);
   for (double value : {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}) out.put(value);
@@ -106,8 +110,7 @@ void putCamera(ByteWriter& out, const MapCamera& camera) {
 
 MapCamera getCamera(ByteReader& in, uint32_t version) {
   MapCamera camera;
-  camera.label.resize(in.getCount(1));
-  in.getAll(std::span<char>(camera.label));
+  camera.label = getText(in);
   PinholeCamera& pinhole = camera.calibration.pinhole;
   for (int* size : {&pinhole.width, &pinhole.height}) *size = in.get<int32_t>();
   for (double* value : {&pinhole.fx, &pinhole.fy, &pinhole.cx, &pinhole.cy}) *value = in.get<double>();
@@ -200,13 +203,16 @@ std::string encodeContent(const KeyframeMap& map) {
   putCovariance(out, map.pose_covariance);
   putMatrix(out, map.vocabulary.words());
   putMatrix(out, map.place_descriptors);
+  putText(out, map.feature_options.model.file);
+  out.put(map.feature_options.model.crc32);
   return out.take();
 }
 
 KeyframeMap decodeContent(std::string_view content, uint32_t version) {
   ByteReader in(content);
   KeyframeMap map;
-  map.feature_options.kind = toFeatureKind(in.get<uint8_t>());
+  map.feature_options.kind = static_cast<FeatureKind>(in.get<uint8_t>());
+  nameOf(map.feature_options.kind);  // throws for an unknown one
   map.feature_options.max_features = in.get<int32_t>();
   map.feature_options.mask_rows_from_top = in.get<int32_t>();
   map.cameras.resize(in.getCount(camera_bytes));
@@ -219,6 +225,10 @@ KeyframeMap decodeContent(std::string_view content, uint32_t version) {
   if (Eigen::MatrixXf words = getMatrix(in); words.size() > 0)
     map.vocabulary = VladVocabulary(map.feature_options.kind, std::move(words));
   map.place_descriptors = getMatrix(in);
+  if (version > 2) {
+    map.feature_options.model.file = getText(in);
+    map.feature_options.model.crc32 = in.get<uint32_t>();
+  }
   if (!in.remaining().empty()) throw std::runtime_error("content is followed by bytes that do not belong to it");
   map.check();
   return map;
@@ -273,7 +283,11 @@ KeyframeMap loadMap(const std::filesystem::path& file) {
     std::string bytes(std::filesystem::file_size(file), '\0');
     std::ifstream in(file, std::ios::binary);
     if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) throw std::runtime_error("cannot be read");
-    return decodeMap(bytes);
+    KeyframeMap map = decodeMap(bytes);
+    std::string& model = map.feature_options.model.file;
+    const std::filesystem::path beside = file.parent_path() / std::filesystem::path(model).filename();
+    if (!model.empty() && std::filesystem::exists(beside)) model = beside.string();
+    return map;
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

@@ -58,7 +58,7 @@ void VisualMapOptions::check() const {
   demand("particle_sigma_px", particle_sigma_px);
   if (!(match_weight > 0 && match_weight <= 1))
     throw std::invalid_argument("match_weight = " + std::to_string(match_weight) + " is not in (0, 1]");
-  featureKindFromName(features);
+  FeatureOptions().choose(features);
   relocalizer.check();
   builder.check();
 }
@@ -75,7 +75,7 @@ void VisualMapOptions::read(const mrpt::config::CConfigFileBase& ini, const std:
   IniSection insertion(ini, prefix + "_insertOpts");
   visitInsertionOptions(*this, [&](const char* key, auto& value) { insertion.read(key, value); });
   insertion.refuseUnknownKeys();
-  builder.features.kind = featureKindFromName(features);
+  builder.features.choose(features);
   try {
     check();
   } catch (const std::invalid_argument& error) {

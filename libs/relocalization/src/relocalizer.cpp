@@ -88,6 +88,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, co
 struct Relocalizer::State {
   std::shared_ptr<const KeyframeMap> map;
   RelocalizerOptions options;
+  FeatureExtractor extractor;
   std::vector<bool> is_certain;  ///< landmarks whose largest sigma is small enough
 
   const Keyframe& keyframe(int index) const { return map->keyframes[static_cast<std::size_t>(index)]; }
@@ -146,9 +147,8 @@ struct Relocalizer::State {
     const int query_camera = static_cast<int>(result.problem.query_cameras.size());
     result.problem.query_cameras.push_back({image.calibration.pinhole, image.robot_from_camera});
     Stopwatch stopwatch;
-    FeatureOptions feature_options = map->feature_options;
-    feature_options.mask_rows_from_top = image.mask_rows_from_top;
-    const FeatureSet query = FeatureExtractor(feature_options).extract(image.image, image.calibration, image.mask);
+    const FeatureSet query =
+        extractor.extract(image.image, image.calibration, image.mask, image.mask_rows_from_top);
     stopwatch.addTo(result.times.features);
     if (query.size() == 0) return;
     const std::vector<RetrievedPlace> places =
@@ -162,15 +162,15 @@ struct Relocalizer::State {
 };
 
 Relocalizer::Relocalizer(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options)
-    : state_(std::make_unique<State>()) {
-  options.check();
-  if (map == nullptr || map->keyframes.empty() || map->vocabulary.empty())
-    throw std::invalid_argument("the map is empty");
-  map->check();
+    : state_([&] {
+        options.check();
+        if (map == nullptr || map->keyframes.empty() || map->vocabulary.empty())
+          throw std::invalid_argument("the map is empty");
+        map->check();
+        return new State{map, options, FeatureExtractor(map->feature_options), {}};
+      }()) {
   for (const Landmark& landmark : map->landmarks)
     state_->is_certain.push_back(largestSigma(landmark) <= options.max_point_sigma);
-  state_->map = std::move(map);
-  state_->options = options;
 }
 
 Relocalizer::~Relocalizer() = default;

@@ -14,7 +14,7 @@ namespace {
 float ratioOf(const Nearest& nearest, FeatureKind kind) {
   if (nearest.second_distance == 0 || nearest.second_distance == no_distance) return 1;
   const float ratio = static_cast<float>(nearest.distance) / static_cast<float>(nearest.second_distance);
-  return kind == FeatureKind::orb ? ratio : std::sqrt(ratio);
+  return isBinary(kind) ? ratio : std::sqrt(ratio);
 }
 
 }  // namespace
@@ -30,6 +30,9 @@ std::vector<FeatureMatch> matchFeatures(const FeatureSet& query, const FeatureSe
   if (query.kind != reference.kind) throw std::invalid_argument("features of different kinds cannot be matched");
   std::vector<FeatureMatch> matches;
   if (query.size() == 0 || reference.size() == 0) return matches;
+  if (query.descriptors.cols() != reference.descriptors.cols())
+    throw std::invalid_argument("descriptors of " + std::to_string(query.descriptors.cols()) + " and " +
+                                std::to_string(reference.descriptors.cols()) + " bytes cannot be matched");
 
   std::vector<int> rows(static_cast<std::size_t>(query.size()));
   std::iota(rows.begin(), rows.end(), 0);

@@ -6,19 +6,54 @@
 
 namespace vmcl {
 
-FeatureKind featureKindFromName(std::string_view name) {
-  if (name == "orb") return FeatureKind::orb;
-  if (name == "sift") return FeatureKind::sift;
-  throw std::invalid_argument("feature kind is \"" + std::string(name) + "\", not orb or sift");
+std::string_view nameOf(FeatureKind kind) {
+  switch (kind) {
+    case FeatureKind::orb:
+      return "orb";
+    case FeatureKind::sift:
+      return "sift";
+    case FeatureKind::akaze:
+      return "akaze";
+    case FeatureKind::network:
+      return "network";
+  }
+  throw std::invalid_argument("feature kind is " + std::to_string(static_cast<int>(kind)));
 }
 
-std::string_view nameOf(FeatureKind kind) { return kind == FeatureKind::orb ? "orb" : "sift"; }
+bool isBinary(FeatureKind kind) { return kind == FeatureKind::orb || kind == FeatureKind::akaze; }
 
-int descriptorBytes(FeatureKind kind) { return kind == FeatureKind::orb ? 32 : 128; }
+bool isDescriptorLength(FeatureKind kind, Eigen::Index bytes) {
+  switch (kind) {
+    case FeatureKind::orb:
+      return bytes == 32;
+    case FeatureKind::sift:
+      return bytes == 128;
+    case FeatureKind::akaze:
+      return bytes == 64;
+    case FeatureKind::network:
+      return bytes > 0 && bytes <= max_descriptor_bytes;
+  }
+  return false;
+}
+
+void FeatureOptions::choose(std::string_view kind_or_model) {
+  model = {};
+  for (FeatureKind classical : {FeatureKind::orb, FeatureKind::sift, FeatureKind::akaze})
+    if (kind_or_model == nameOf(classical)) {
+      kind = classical;
+      return;
+    }
+  if (!kind_or_model.ends_with(".onnx"))
+    throw std::invalid_argument("features are \"" + std::string(kind_or_model) +
+                                "\", not orb, sift, akaze or a .onnx file");
+  kind = FeatureKind::network;
+  model.file = kind_or_model;
+}
 
 void FeatureOptions::check() const {
-  if (kind != FeatureKind::orb && kind != FeatureKind::sift)
-    throw std::invalid_argument("kind is " + std::to_string(static_cast<int>(kind)) + ", not orb or sift");
+  nameOf(kind);
+  if ((kind == FeatureKind::network) != !model.file.empty())
+    throw std::invalid_argument("model is \"" + model.file + "\" for features of kind " + std::string(nameOf(kind)));
   if (max_features < 1 || max_features > most_features)
     throw std::invalid_argument("max_features is " + std::to_string(max_features) + ", not in [1, " +
                                 std::to_string(most_features) + "]");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Brute force, a reference descriptor a lane. SIFT descriptors are bytes: the sums of their products stay below 2^24,
-// so that single precision is exact.
+// Brute force, a reference descriptor a lane. Entries of vectors are bytes, at most 256 about 128: the sums of
+// their products stay below 2^24, so that single precision is exact.
 
 #include "vmcl/geometry/instruction_sets.h"
 
@@ -225,7 +225,7 @@ HWY_EXPORT(searchEntries);
 DescriptorBlocks::DescriptorBlocks(FeatureKind kind_of_all, const Descriptors& descriptors)
     : kind(kind_of_all), count(static_cast<std::size_t>(descriptors.rows())) {
   const auto bytes = static_cast<std::size_t>(descriptors.cols());
-  if (kind == FeatureKind::orb) {
+  if (isBinary(kind)) {
     words = bytes / sizeof(uint32_t);
     bits = inBlocks<uint32_t>(descriptors, words);
     return;
@@ -238,7 +238,7 @@ DescriptorBlocks::DescriptorBlocks(FeatureKind kind_of_all, const Descriptors& d
 
 std::vector<Nearest> nearestAmong(const DescriptorBlocks& blocks, const Descriptors& queries,
                                   std::span<const int> rows) {
-  if (blocks.kind == FeatureKind::orb)
+  if (isBinary(blocks.kind))
     return searchAll<uint32_t>(blocks, queries, rows, [&](const uint32_t* const* words, Nearest* nearest) {
       HWY_DYNAMIC_DISPATCH(searchBits)(blocks, words, nearest);
     });

@@ -27,17 +27,17 @@ struct DescriptorBlocks {
 
   FeatureKind kind = FeatureKind::orb;
   std::size_t count = 0;
-  std::size_t words = 0;  ///< of a descriptor: 32 bits of ORB; an entry of SIFT as float
+  std::size_t words = 0;  ///< of a descriptor: 32 bits, or an entry as float
   /// First words of a block, second words of it, and so on; then the next block. The last one is filled up with zeros.
   std::vector<uint32_t> bits;
   std::vector<float> entries;
-  std::vector<float> squared_norms;  ///< of SIFT
+  std::vector<float> squared_norms;  ///< of vectors
 
   DescriptorBlocks(FeatureKind kind, const Descriptors& descriptors);
 };
 
-/// The nearest of the blocks to each of the rows of the queries, by Hamming distance (ORB) or squared Euclidean
-/// distance (SIFT). Exact, and the same on every machine.
+/// The nearest of the blocks to each of the rows of the queries, by Hamming or squared Euclidean distance, as the
+/// kind has it. Exact, and the same on every machine.
 std::vector<Nearest> nearestAmong(const DescriptorBlocks& blocks, const Descriptors& queries,
                                   std::span<const int> rows);
 

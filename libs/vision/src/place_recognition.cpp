@@ -17,15 +17,16 @@ using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 constexpr Eigen::Index max_training_samples = 50'000;
 constexpr int max_rounds = 20;
 
-int dimensionOf(FeatureKind kind) {
-  return kind == FeatureKind::orb ? 8 * descriptorBytes(kind) : descriptorBytes(kind);
+Eigen::Index dimensionOf(const FeatureSet& features) {
+  return (isBinary(features.kind) ? 8 : 1) * features.descriptors.cols();
 }
 
-/// A descriptor as a point of Euclidean space: SIFT as it is, the bits of ORB as -1 and +1.
-Eigen::RowVectorXf toVector(FeatureKind kind, const uint8_t* descriptor) {
-  Eigen::RowVectorXf vector(dimensionOf(kind));
-  if (kind == FeatureKind::sift) return Eigen::RowVectorX<uint8_t>::Map(descriptor, vector.size()).cast<float>();
-  for (int byte = 0; byte < descriptorBytes(kind); ++byte)
+/// A descriptor as a point of Euclidean space: entries as they are, bits as -1 and +1.
+Eigen::RowVectorXf toVector(const FeatureSet& features, Eigen::Index row) {
+  const auto descriptor = features.descriptors.row(row);
+  if (!isBinary(features.kind)) return descriptor.cast<float>();
+  Eigen::RowVectorXf vector(dimensionOf(features));
+  for (Eigen::Index byte = 0; byte < descriptor.size(); ++byte)
     for (int bit = 0; bit < 8; ++bit)
       vector[8 * byte + bit] = static_cast<float>(2 * (descriptor[byte] >> bit & 1) - 1);
   return vector;
@@ -37,13 +38,15 @@ RowMatrix trainingSamples(std::span<const FeatureSet* const> sets) {
   for (const FeatureSet* set : sets) total += set->size();
   if (total == 0) throw std::invalid_argument("no features to train a vocabulary from");
   const FeatureKind kind = sets.front()->kind;
+  const auto* const first = *std::ranges::find_if(sets, [](const FeatureSet* set) { return set->size() > 0; });
   const Eigen::Index count = std::min(total, max_training_samples);
-  RowMatrix samples(count, dimensionOf(kind));
+  RowMatrix samples(count, dimensionOf(*first));
   Eigen::Index sample = 0, passed = 0;
   for (const FeatureSet* set : sets) {
-    if (set->kind != kind) throw std::invalid_argument("a vocabulary needs features of one kind");
+    if (set->kind != kind || (set->size() > 0 && set->descriptors.cols() != first->descriptors.cols()))
+      throw std::invalid_argument("a vocabulary needs features of one kind");
     for (; sample < count && sample * total / count < passed + set->size(); ++sample)
-      samples.row(sample) = toVector(kind, set->descriptors.row(sample * total / count - passed).data());
+      samples.row(sample) = toVector(*set, sample * total / count - passed);
     passed += set->size();
   }
   return samples;
@@ -106,16 +109,19 @@ VladVocabulary VladVocabulary::train(std::span<const FeatureSet* const> sets, in
 }
 
 VladVocabulary::VladVocabulary(FeatureKind kind, Eigen::MatrixXf words) : kind_(kind), words_(std::move(words)) {
-  if (words_.rows() == 0 || words_.cols() != dimensionOf(kind) || !words_.allFinite())
+  const Eigen::Index entries_of_byte = isBinary(kind) ? 8 : 1;
+  if (words_.rows() == 0 || words_.cols() % entries_of_byte != 0 ||
+      !isDescriptorLength(kind, words_.cols() / entries_of_byte) || !words_.allFinite())
     throw std::invalid_argument("vocabulary words are broken: " + std::to_string(words_.rows()) + " of " +
                                 std::to_string(words_.cols()) + " entries");
 }
 
 Eigen::VectorXf VladVocabulary::describe(const FeatureSet& features) const {
   if (empty()) throw std::invalid_argument("vocabulary is empty");
-  if (features.kind != kind_) throw std::invalid_argument("features are of another kind than the vocabulary");
+  if (features.kind != kind_ || (features.size() > 0 && dimensionOf(features) != words_.cols()))
+    throw std::invalid_argument("features are of another kind than the vocabulary");
   RowMatrix samples(features.size(), words_.cols());
-  for (int i = 0; i < features.size(); ++i) samples.row(i) = toVector(kind_, features.descriptors.row(i).data());
+  for (int i = 0; i < features.size(); ++i) samples.row(i) = toVector(features, i);
   RowMatrix residuals = RowMatrix::Zero(words_.rows(), words_.cols());
   const std::vector<Eigen::Index> nearest = nearestWords(samples, words_);
   for (int i = 0; i < features.size(); ++i) {

@@ -18,7 +18,8 @@ inline constexpr uint32_t oldest_map_file_version = 2;  ///< that is still read
 void saveMap(const std::filesystem::path& file, const KeyframeMap& map);
 
 /// Throws std::runtime_error naming file and reason: missing, not a .vmap, cut off, checksum, version, broken content.
-/// Sizes are checked against the file before memory is taken.
+/// Sizes are checked against the file before memory is taken. A network of features that lies beside the map under the
+/// name that the map has is taken in place of the one at the path that the map has.
 KeyframeMap loadMap(const std::filesystem::path& file);
 
 /// The same bytes as the file, for embedding in another stream.
