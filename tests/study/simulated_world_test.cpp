@@ -59,7 +59,7 @@ TEST(SimulatedWorld, TheWholeRobotTilts) {
     const SimulatedProblem simulated = simulateProblem(settings, random);
     const PoseLikelihood likelihood(simulated.problem, {.sigma_px = 20});
     const RefinedPose pose =
-        PoseRefiner(likelihood, {.sigma_tilt = 1}).refine(PlanarTransform(simulated.map_from_robot), 50);
+        PoseRefiner(likelihood, {.sigma_tilt = 1}).refine(PlanarTransform(simulated.map_from_robot));
     EXPECT_NEAR(std::hypot(pose.roll, pose.pitch), settings.tilt, 0.005);
     EXPECT_NEAR(pose.map_from_robot.x, simulated.map_from_robot.x, 0.05);
     EXPECT_NEAR(pose.map_from_robot.y, simulated.map_from_robot.y, 0.05);

@@ -82,30 +82,6 @@ bool fixesThePose(const PlanarSlope& slope) {
   return slope.information.determinant() > least * slope.information.diagonal().prod();
 }
 
-/// Where the hypotheses come to within some steps of climbing on the plane, the likeliest first: those that met once,
-/// and none whose log likelihood is `hopeless` below the best.
-std::vector<Hypothesis> climbedFrom(const PoseRefiner& climber, const std::vector<Hypothesis>& starts, int steps,
-                                    double hopeless) {
-  constexpr double met_distance2 = 0.1;  // in standard deviations
-  std::vector<PlanarTransform> poses;
-  for (const Hypothesis& start : starts) poses.push_back(start.pose);
-  const std::vector<ClimbedPose> climbed = climber.climb(poses, steps);
-  std::vector<double> heights;
-  double best = -std::numeric_limits<double>::infinity();
-  for (const ClimbedPose& one : climbed) {
-    heights.push_back(one.slope.log_likelihood);
-    if (fixesThePose(one.slope)) best = std::max(best, heights.back());
-  }
-  const auto met = [&](std::size_t one, std::size_t higher) {
-    const Eigen::Vector3d d = difference(climbed[one].map_from_robot.pose(), climbed[higher].map_from_robot.pose());
-    return d.squaredNorm() + d.dot(climbed[higher].slope.information * d) < met_distance2;
-  };
-  std::vector<Hypothesis> reached;
-  for (const std::size_t i : bestDistinct(heights, climbed.size(), met))
-    if (heights[i] >= best - hopeless) reached.push_back({climbed[i].map_from_robot, starts[i].solver});
-  return reached;
-}
-
 /// Log likelihood below the best that refinement on the plane does not make up for. Off it, the true pose may look
 /// poor.
 double hopelessBelow(const SoftPlane& plane) {
@@ -113,13 +89,20 @@ double hopelessBelow(const SoftPlane& plane) {
   return is_soft ? std::numeric_limits<double>::infinity() : 25;
 }
 
-/// The peaks above the hypotheses: most of these meet soon.
+/// The peaks above the hypotheses, the highest first, without those whose log likelihood is `hopeless` below the best.
 std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vector<Hypothesis>& starts,
                                      double hopeless) {
-  constexpr int first_steps = 3, more_steps = 12;
-  const std::vector<Hypothesis> met =
-      climbedFrom(climber, starts, first_steps, std::numeric_limits<double>::infinity());
-  return climbedFrom(climber, met, more_steps, hopeless);
+  std::vector<PlanarTransform> poses;
+  for (const Hypothesis& start : starts) poses.push_back(start.pose);
+  const std::vector<ClimbedPose> climbed = climber.climb(poses);
+  double best = -std::numeric_limits<double>::infinity();
+  for (const ClimbedPose& one : climbed)
+    if (fixesThePose(one.slope)) best = std::max(best, one.slope.log_likelihood);
+  std::vector<Hypothesis> summits;
+  for (const auto& [pose, slope, start] : climbed)
+    if (slope.log_likelihood >= best - hopeless)
+      summits.push_back({pose, starts[static_cast<std::size_t>(start)].solver});
+  return summits;
 }
 
 /// The likelihood with the share of inliers and, unless it is known, the pixel noise that show at the peak above the

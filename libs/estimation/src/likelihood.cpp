@@ -66,20 +66,9 @@ int PoseLikelihood::matchCount() const { return prepared_->matches.match_count; 
 
 double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
   const Prepared& p = *prepared_;
-  const double prior = p.options.inlier_prior, outlier = 1 - prior;
-  // log(1 - e + e p / u) = log(1 - e) + log(1 + e p / (u (1 - e))): most matches add only the first part, and the
-  // product of the second runs several matches to a logarithm.
-  double sum = p.matches.match_count * std::log(outlier);
-  const double odds = prior / outlier;
-  double product = 1;
-  const auto addRatio = [&](int, const MatchResidual& residual) {
-    product *= 1 + odds * residual.likelihood_ratio;
-    if (product < 1e200) return;
-    sum += std::log(product);
-    product = 1;
-  };
-  p.visit<false>(map_from_robot, addRatio);
-  return sum + std::log(product);
+  LogLikelihoodSum sum(p.options.inlier_prior, p.matches.match_count);
+  p.visit<false>(map_from_robot, [&](int, const MatchResidual& residual) { sum.add(residual.likelihood_ratio); });
+  return sum.total();
 }
 
 double PoseLikelihood::operator()(const PlanarTransform& map_from_robot) const {

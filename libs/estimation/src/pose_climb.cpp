@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "best_distinct.h"
 #include "prepared_matches.h"
+#include "vmcl/estimation/pose_mixture.h"
 #include "vmcl/estimation/pose_refiner.h"
 
 namespace vmcl {
@@ -14,45 +16,60 @@ namespace {
 /// Levenberg-Marquardt at one pose, the likelihood evaluated by others.
 class Climb {
  public:
-  Climb(const PlanarTransform& start, const PlanarSlope& slope) : pose_(start), slope_(slope) {}
+  Climb(const PlanarTransform& pose, const PlanarSlope& slope, int start) : reached_{pose, slope, start} {}
 
   bool isOver() const { return is_over_; }
 
-  PlanarTransform next() const {
-    Eigen::Matrix3d damped = slope_.information;
-    damped.diagonal() += damping_ * slope_.information.diagonal() + Eigen::Vector3d::Constant(1e-12);
-    const Eigen::Vector3d step = damped.ldlt().solve(slope_.gradient);
-    if (!step.allFinite()) return pose_;
+  PlanarTransform next() {
+    const auto& [pose, slope, start] = reached_;
+    Eigen::Matrix3d damped = slope.information;
+    damped.diagonal() += damping_ * slope.information.diagonal() + Eigen::Vector3d::Constant(1e-12);
+    const Eigen::Vector3d step = damped.ldlt().solve(slope.gradient);
+    if (!step.allFinite()) return pose;
+    expected_gain_ = 0.5 * step.dot(slope.gradient);
     const double c = std::cos(step[2]), s = std::sin(step[2]);
-    const PlanarTransform moved(pose_.c * c - pose_.s * s, pose_.s * c + pose_.c * s, pose_.x + step[0],
-                                pose_.y + step[1]);
+    const PlanarTransform moved(pose.c * c - pose.s * s, pose.s * c + pose.c * s, pose.x + step[0], pose.y + step[1]);
     const double norm = std::hypot(moved.c, moved.s);
     return {moved.c / norm, moved.s / norm, moved.x, moved.y};
   }
 
-  /// Takes the step to `pose`, where L is as `slope` says, if it leads up.
+  /// Takes the step to `pose`, where L is as `slope` says, if it leads up. All but at the top the slope may point beyond
+  /// the top of L, since it leaves a part of L out.
   void take(const PlanarTransform& pose, const PlanarSlope& slope) {
-    constexpr double worthwhile = 0.01, hopeless_damping = 1e3;
-    const double gain = slope.log_likelihood - slope_.log_likelihood;
-    if (gain > 0) {
-      pose_ = pose;
-      slope_ = slope;
+    constexpr double worthwhile = 0.05, hopeless_damping = 1e3;
+    if (slope.log_likelihood > reached_.slope.log_likelihood) {
+      reached_.map_from_robot = pose;
+      reached_.slope = slope;
       damping_ *= 0.1;
-      is_over_ = gain < worthwhile && damping_ < 1e-2;
     } else {
       damping_ *= 10;
-      is_over_ = damping_ > hopeless_damping;
     }
+    is_over_ = damping_ > hopeless_damping || (expected_gain_ < worthwhile && damping_ < 0.1);
   }
 
-  ClimbedPose reached() const { return {pose_, slope_}; }
+  const ClimbedPose& reached() const { return reached_; }
 
  private:
-  PlanarTransform pose_;
-  PlanarSlope slope_;
+  ClimbedPose reached_;
   double damping_ = 1e-3;
+  double expected_gain_ = 0;
   bool is_over_ = false;
 };
+
+/// The highest first, without those that met a higher one.
+std::vector<Climb> withoutMet(const std::vector<Climb>& climbs) {
+  constexpr double met_distance2 = 0.1;  // in standard deviations
+  std::vector<double> heights;
+  for (const Climb& climb : climbs) heights.push_back(climb.reached().slope.log_likelihood);
+  const auto met = [&](std::size_t one, std::size_t other) {
+    const ClimbedPose &lower = climbs[one].reached(), &higher = climbs[other].reached();
+    const Eigen::Vector3d d = difference(lower.map_from_robot.pose(), higher.map_from_robot.pose());
+    return d.squaredNorm() + d.dot(higher.slope.information * d) < met_distance2;
+  };
+  std::vector<Climb> kept;
+  for (const std::size_t i : bestDistinct(heights, climbs.size(), met)) kept.push_back(climbs[i]);
+  return kept;
+}
 
 }  // namespace
 
@@ -71,12 +88,13 @@ void PoseRefiner::linearize(std::span<const PlanarTransform> poses, std::span<Pl
   }
 }
 
-std::vector<ClimbedPose> PoseRefiner::climb(std::span<const PlanarTransform> starts, int max_steps) const {
+std::vector<ClimbedPose> PoseRefiner::climb(std::span<const PlanarTransform> starts) const {
+  constexpr int max_steps = 15;
   std::vector<PlanarTransform> poses(starts.begin(), starts.end());
   std::vector<PlanarSlope> slopes(starts.size());
   linearize(poses, slopes);
   std::vector<Climb> climbs;
-  for (std::size_t i = 0; i < starts.size(); ++i) climbs.emplace_back(starts[i], slopes[i]);
+  for (std::size_t i = 0; i < starts.size(); ++i) climbs.emplace_back(starts[i], slopes[i], static_cast<int>(i));
   std::vector<Climb*> going;
   for (int step = 0; step < max_steps; ++step) {
     going.clear();
@@ -84,9 +102,10 @@ std::vector<ClimbedPose> PoseRefiner::climb(std::span<const PlanarTransform> sta
       if (!climb.isOver()) going.push_back(&climb);
     if (going.empty()) break;
     poses.clear();
-    for (const Climb* climb : going) poses.push_back(climb->next());
+    for (Climb* climb : going) poses.push_back(climb->next());
     linearize(poses, std::span(slopes).first(poses.size()));
     for (std::size_t i = 0; i < going.size(); ++i) going[i]->take(poses[i], slopes[i]);
+    climbs = withoutMet(climbs);
   }
   std::vector<ClimbedPose> reached;
   for (const Climb& climb : climbs) reached.push_back(climb.reached());

@@ -40,6 +40,18 @@ Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   return m;
 }
 
+/// The step to where the gradient vanishes, if the weights move with the pose: Newton's, as far as the information left
+/// allows; steps with the weights held would only come nearer by the share of it that is in doubt.
+Vector6 newtonStep(const PoseRefiner::Linearization& linear) {
+  constexpr double longest = 5;  // gain expected over that of the step with weights held
+  const Matrix6 tiny = Vector6::Constant(1e-12).asDiagonal();
+  const Vector6 held = (linear.information + tiny).ldlt().solve(linear.gradient);
+  const Eigen::LLT<Matrix6> left(linear.information - linear.doubt + tiny);
+  if (left.info() != Eigen::Success) return held;
+  const Vector6 step = left.solve(linear.gradient);
+  return step.dot(linear.gradient) < longest * held.dot(linear.gradient) ? step : held;
+}
+
 RefinedPose moved(RefinedPose pose, const Vector6& step) {
   pose.map_from_robot.x += step[0];
   pose.map_from_robot.y += step[1];
@@ -86,7 +98,9 @@ PoseRefiner::Linearization PoseRefiner::linearize(const RefinedPose& pose) const
   const auto& p = *likelihood_.prepared_;
   const TurnAxes axes(pose);
   Linearization sum;
+  LogLikelihoodSum log_likelihood(p.options.inlier_prior, p.matches.match_count);
   p.visit(pose.rigid(), [&](int, const MatchResidual& r) {
+    log_likelihood.add(r.likelihood_ratio);
     const Eigen::Matrix<double, 2, 3> by_turn = r.pixel_by_point * crossMatrix(r.arm);
     Eigen::Matrix<double, 2, 6> J;
     J.leftCols<2>() = -r.scale * r.pixel_by_point.leftCols<2>();
@@ -100,6 +114,7 @@ PoseRefiner::Linearization PoseRefiner::linearize(const RefinedPose& pose) const
     sum.information += weight * J.transpose() * r.information * J;
     sum.doubt += weight * (1 - weight) * gradient * gradient.transpose();
   });
+  sum.log_likelihood = log_likelihood.total();
   return sum;
 }
 
@@ -123,43 +138,54 @@ PoseRefiner::Linearization PoseRefiner::withPrior(const RefinedPose& pose) const
   return linear;
 }
 
-RefinedPose PoseRefiner::refine(const PlanarTransform& start, int max_iterations) const {
-  constexpr double near_the_top = 1e-2, at_the_top = 1e-11;  // gain of L expected from a step
-  const auto evaluate = [&](RefinedPose& pose) {
-    pose.log_likelihood = likelihood_(pose.rigid());
-    return pose.log_likelihood + logPrior(pose);
-  };
-  RefinedPose best;
-  best.map_from_robot = start.pose();
-  double objective = evaluate(best), damping = 1e-4;
-  Linearization linear = withPrior(best);
-  bool near = false;  // Then the gradient leads, not L: it vanishes in one place, wherever the climb came from.
-  for (int i = 0; i < max_iterations && damping < 1e6; ++i) {
-    Matrix6 damped = linear.information;
-    damped.diagonal() += damping * linear.information.diagonal() + Vector6::Constant(1e-12);
-    const Vector6 step = damped.ldlt().solve(linear.gradient);
+RefinedPose PoseRefiner::refine(const PlanarTransform& start) const {
+  RefinedPose pose;
+  pose.map_from_robot = start.pose();
+  const Position top = settled(nearTheTop(at(pose)));
+  pose = top.pose;
+  pose.log_likelihood = top.linear.log_likelihood;
+  setUncertainty(top.linear, pose);
+  return pose;
+}
+
+PoseRefiner::Position PoseRefiner::at(const RefinedPose& pose) const {
+  Position position{pose, withPrior(pose)};
+  position.objective = position.linear.log_likelihood + logPrior(pose);
+  return position;
+}
+
+PoseRefiner::Position PoseRefiner::nearTheTop(Position best) const {
+  constexpr int max_steps = 20;
+  constexpr double near = 0.5;  // gain expected from a step
+  double damping = 1e-4;
+  for (int i = 0; i < max_steps && damping < 1e6; ++i) {
+    Matrix6 damped = best.linear.information;
+    damped.diagonal() += damping * best.linear.information.diagonal() + Vector6::Constant(1e-12);
+    const Vector6 step = damped.ldlt().solve(best.linear.gradient);
     if (!step.allFinite()) break;
-    RefinedPose next = moved(best, step);
-    const double expected_gain = 0.5 * step.dot(linear.gradient);
-    near |= expected_gain < near_the_top && damping < 0.1;
-    if (near) {
-      best = next;
-      linear = withPrior(best);
-      if (expected_gain < at_the_top) break;
-      continue;
-    }
-    const double gain = evaluate(next) - objective;
-    if (!(gain > 0)) {
-      damping *= 10;
-      continue;
-    }
-    best = next;
-    objective += gain;
-    damping = std::max(damping * 0.1, 1e-9);
-    linear = withPrior(best);
+    if (damping < 0.1 && 0.5 * step.dot(best.linear.gradient) < near) break;
+    const Position next = at(moved(best.pose, step));
+    const bool is_higher = next.objective > best.objective;
+    damping = is_higher ? std::max(damping * 0.1, 1e-9) : damping * 10;
+    if (is_higher) best = next;
   }
-  evaluate(best);
-  setUncertainty(linear, best);
+  return best;
+}
+
+PoseRefiner::Position PoseRefiner::settled(const Position& top) const {
+  constexpr int max_steps = 15;
+  constexpr double settled = 1e-11;  // gain expected from a step
+  constexpr double most_lost = 0.1;  // of the objective
+  Position best = top;
+  for (int i = 0; i < max_steps; ++i) {
+    const Vector6 step = newtonStep(best.linear);
+    if (!step.allFinite()) break;
+    const Position next = at(moved(best.pose, step));
+    if (!(next.objective > top.objective - most_lost)) return top;
+    const double expected_gain = 0.5 * step.dot(best.linear.gradient);
+    best = next;
+    if (expected_gain < settled) break;
+  }
   return best;
 }
 

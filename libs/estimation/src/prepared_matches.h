@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -13,6 +14,26 @@
 #include "vmcl/geometry/pose_problem.h"
 
 namespace vmcl {
+
+/// log(1 - e + e r) = log(1 - e) + log(1 + e r / (1 - e)), summed over the likelihood ratios r of matches: most add only
+/// the first part, and the product of the second runs several matches to a logarithm.
+class LogLikelihoodSum {
+ public:
+  LogLikelihoodSum(double inlier_prior, int match_count)
+      : sum_(match_count * std::log1p(-inlier_prior)), odds_(inlier_prior / (1 - inlier_prior)) {}
+
+  void add(double likelihood_ratio) {
+    product_ *= 1 + odds_ * likelihood_ratio;
+    if (product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+
+  double total() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_, odds_, product_ = 1;
+};
 
 /// What every evaluation of the likelihood needs, laid out for its loops.
 struct PoseLikelihood::Prepared {

@@ -14,7 +14,8 @@ namespace {
 /// Hypotheses that optimization takes to the same place, so that one of them is enough (m, rad).
 bool alike(const Hypothesis& a, const Hypothesis& b) {
   constexpr double near = 0.02;
-  return std::hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y) < near &&
+  const double dx = a.pose.x - b.pose.x, dy = a.pose.y - b.pose.y;
+  return dx * dx + dy * dy < near * near &&
          std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
 }
 

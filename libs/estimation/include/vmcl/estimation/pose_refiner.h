@@ -39,11 +39,12 @@ struct RefinedPose {
 struct ClimbedPose {
   PlanarTransform map_from_robot;
   PlanarSlope slope;
+  int start = 0;  ///< index of the pose where the climb began
 };
 
 /// Climbs the likelihood: Levenberg-Marquardt on the residuals of each match weighted by its chance of being an inlier
-/// (expectation maximization), each step accepted only if the true objective grows; the last ones, of some 0.01 of L in
-/// all, lead to where the gradient of these residuals vanishes.
+/// (expectation maximization), each step accepted only if the true objective grows; near the top to where the gradient
+/// of these residuals vanishes: one place, wherever the climb came from.
 class PoseRefiner {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -52,16 +53,17 @@ class PoseRefiner {
   /// The likelihood must outlive the refiner.
   PoseRefiner(const PoseLikelihood& likelihood, const SoftPlane& plane);
 
-  RefinedPose refine(const PlanarTransform& start, int max_iterations = 20) const;
+  RefinedPose refine(const PlanarTransform& start) const;
 
-  /// Climbs from many poses at once, on the plane and, with steps enough, all but to the top, at a small part of the
-  /// time: to see which are worth refining. One result for each start, in order; none depends on the other starts.
-  std::vector<ClimbedPose> climb(std::span<const PlanarTransform> starts, int max_steps = 15) const;
+  /// Climbs from many poses at once, on the plane and all but to the top, at a small part of the time: to see which are
+  /// worth refining. Of climbs that meet only the highest goes on. The highest first.
+  std::vector<ClimbedPose> climb(std::span<const PlanarTransform> starts) const;
 
-  /// Gradient and Gauss-Newton information of the likelihood over (x, y, phi, roll, pitch, height), matches weighted by
+  /// L, its gradient and Gauss-Newton information over (x, y, phi, roll, pitch, height), matches weighted by
   /// their chance of being inliers. The gradient leaves out how the residuals' spread varies with the pose; the prior
   /// of unknown depths pulls as RefinedPose says.
   struct Linearization {
+    double log_likelihood = 0;
     Vector6 gradient = Vector6::Zero();
     Matrix6 information = Matrix6::Zero();
     Matrix6 doubt = Matrix6::Zero();  ///< information lost because it is not sure which matches are inliers
@@ -82,6 +84,15 @@ class PoseRefiner {
   std::vector<int> inliers(const RefinedPose& pose) const;
 
  private:
+  struct Position {
+    RefinedPose pose;
+    Linearization linear;  ///< with the prior
+    double objective = 0;  ///< L and the log prior
+  };
+  Position at(const RefinedPose& pose) const;
+  Position nearTheTop(Position best) const;
+  Position settled(const Position& top) const;
+
   double logPrior(const RefinedPose& pose) const;
   Linearization withPrior(const RefinedPose& pose) const;
   void setUncertainty(const Linearization& linear, RefinedPose& pose) const;
