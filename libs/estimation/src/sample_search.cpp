@@ -101,7 +101,7 @@ class Search {
   const PoseLikelihood& likelihood_;
   PoseRefiner refiner_;
   std::vector<Kind> kinds_;
-  int at_first_ = 128;  ///< samples of each kind before any rule
+  int at_first_ = 64;  ///< samples of each kind before any rule
   std::vector<Hypothesis> hypotheses_;
   std::vector<double> scores_;
   double best_score_ = -std::numeric_limits<double>::infinity();

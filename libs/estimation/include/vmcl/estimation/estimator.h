@@ -20,7 +20,7 @@ struct EstimatorOptions {
   uint64_t seed = 1;       ///< same seed, same answer
   LikelihoodOptions likelihood{};
   bool estimate_sigma_px = false;  ///< whether the pixel noise is but a first guess, to be estimated from the inliers
-  int refined = 32;                ///< best hypotheses that are optimized, at least 1
+  int refined = 16;                ///< best hypotheses that are optimized, at least 1
   int max_modes = 5;               ///< modes reported, at least 1
   SoftPlane plane{};               ///< unmodelled tilt and height of the robot
   double in_sight_log_odds = 3;    ///< that a reference has the place in sight, before the matches are seen
