@@ -200,13 +200,11 @@ TEST_P(ManyPoses, AnyNumberOfPosesAndMatches) {
   EXPECT_EQ(value[0], 0);
 }
 
-// Rounding may lead the search elsewhere, but to the same peak. Where only one search finds a small peak beside it,
-// their joint mean differs a little: in 1 of 100 problems by more than 1e-6 (300 of another seed). Three of 30 would be
-// a false alarm in 300.
+// Rounding may lead the search elsewhere, but to the same peak: none of 1200 problems of other seeds differed by more
+// than 2e-7, so that a false alarm in 30 is rarer than one in ten runs of other seeds.
 TEST_P(ManyPoses, SameEstimateAsBaseline) {
   if (GetParam() == HWY_SCALAR) GTEST_SKIP() << "the baseline itself";
   Random random(58);
-  int elsewhere = 0;
   for (int trial = 0; trial < 30; ++trial) {
     const Scene scene = randomScene(random, {.matches = 100, .outlier_rate = 0.5, .noise_px = 2, .point_sigma = 0.02});
     const PoseEstimate estimate = estimatePose(scene.problem, {});
@@ -215,12 +213,9 @@ TEST_P(ManyPoses, SameEstimateAsBaseline) {
     useTargets(GetParam());
     ASSERT_TRUE(estimate.found() && baseline.found());
     const PoseMode &best = estimate.modes.front(), &same = baseline.modes.front();
-    const double distance = difference(best.robot_in_map, same.robot_in_map).cwiseAbs().maxCoeff();
-    EXPECT_LT(distance, 1e-4);
-    elsewhere += distance > 1e-6;
+    EXPECT_LT(difference(best.robot_in_map, same.robot_in_map).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_EQ(best.inliers, same.inliers);
   }
-  EXPECT_LT(elsewhere, 3);
 }
 
 // So that threads may share the poses out as they like.
