@@ -78,6 +78,7 @@ Match parseMatch(const Json& json, const std::vector<ReferenceCamera>& reference
   match.query_pixel = vector<2>(json, "uv");
   match.reference_camera = integer(json, "r");
   match.reference_pixel = vector<2>(json, "ref_uv");
+  if (json.contains("inlier_odds")) match.inlier_odds = number(json, "inlier_odds");
   if (!json.contains("point")) return match;
   MapPoint& point = match.point.emplace();
   point.point_in_map = vector<3>(json, "point");
@@ -121,7 +122,8 @@ IdentifiedProblem parseProblem(const std::string& line, std::string& id) {
   for (std::size_t i = 0; i < matches.size(); ++i) {
     try {
       result.problem.matches.push_back(parseMatch(matches[i], result.problem.reference_cameras));
-      addUnknownKeys(matches[i], {"q", "uv", "r", "ref_uv", "point", "sigma_depth"}, result.unknown_keys);
+      addUnknownKeys(matches[i], {"q", "uv", "r", "ref_uv", "inlier_odds", "point", "sigma_depth"},
+                     result.unknown_keys);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("match " + std::to_string(i) + ": " + error.what());
     }

@@ -37,6 +37,10 @@ TEST(PoseLikelihood, MatchWithDepthIsTheFormula) {
   const double su2 = 4 + 100, sv2 = 4;
   const double p = std::exp(-0.5 * (9 / su2 + 1 / sv2)) / (2 * M_PI * std::sqrt(su2 * sv2));
   EXPECT_NEAR(PoseLikelihood(problem, options)(PlanarPose{}), std::log(0.75 + 0.25 * p * 1280 * 960), 1e-9);
+  problem.matches[0].inlier_odds = 6;  // over those of 0.25: a chance of 2 / 3
+  EXPECT_NEAR(PoseLikelihood(problem, options)(PlanarPose{}), std::log((1 + 2 * p * 1280 * 960) / 3), 1e-9);
+  EXPECT_NEAR(PoseLikelihood(problem, options)(PlanarPose{0, 0, M_PI}), -std::log(3), 1e-12);
+  problem.matches[0].inlier_odds = 1;
   // Behind the camera only the outlier is left.
   EXPECT_NEAR(PoseLikelihood(problem, options)(PlanarPose{0, 0, M_PI}), std::log(0.75), 1e-12);
 }

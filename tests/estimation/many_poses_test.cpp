@@ -116,6 +116,13 @@ TEST_P(ManyPoses, AgreeWithOneByOne) {
 }
 
 // Several references for one query camera, and matches of one camera of the robot with the reference of another.
+TEST_P(ManyPoses, AnyOdds) {
+  Random random(59);
+  Scene scene = randomScene(random, {.matches = 100, .outlier_rate = 0.5, .noise_px = 2, .point_sigma = 0.02});
+  for (Match& match : scene.problem.matches) match.inlier_odds = std::pow(10, random.uniform(-3, 3));
+  expectSameAsOneByOne(PoseLikelihood(scene.problem, {}), posesAround(scene.map_from_robot, random, 50));
+}
+
 TEST_P(ManyPoses, AnyPairOfCameras) {
   Random random(52);
   for (int trial = 0; trial < 20; ++trial) {

@@ -47,7 +47,7 @@ TEST(EvenOrder, SpreadsFromTheFirstOn) {
 
 /// Poses of all samples of a kind, as sorted (x, y).
 std::vector<std::pair<double, double>> allPoses(const PoseProblem& problem, Solver kind, uint64_t seed) {
-  MinimalSampler sampler(problem, seed);
+  MinimalSampler sampler(problem, 0.3, seed);
   std::vector<PlanarTransform> poses;
   sampler.draw(kind, static_cast<int>(sampler.sampleCount(kind)), poses);
   std::vector<std::pair<double, double>> places;
@@ -62,7 +62,7 @@ TEST(MinimalSampler, DrawsEachSampleOnce) {
   for (const int matches : {3, 4, 9, 30}) {
     const Scene scene = randomScene(random, {.cameras = 2, .matches = matches, .depth_rate = 0.6, .noise_px = 1});
     for (const Solver kind : {Solver::one_point_one_depth, Solver::two_depth, Solver::three_rays}) {
-      if (!MinimalSampler(scene.problem, 0).canDraw(kind)) continue;
+      if (!MinimalSampler(scene.problem, 0.3, 0).canDraw(kind)) continue;
       const auto poses = allPoses(scene.problem, kind, 1);
       const auto in_other_order = allPoses(scene.problem, kind, 2);
       ASSERT_EQ(poses.size(), in_other_order.size());
@@ -80,13 +80,33 @@ TEST(MinimalSampler, FirstSamplesAreOfAllMatches) {
   Random random(95);
   Scene scene = randomScene(random, {.matches = 1000, .depth_rate = 0.233});
   for (std::size_t i = 0; i < 500; ++i) scene.problem.matches[i].query_pixel.x() += 300;  // wrong
-  MinimalSampler sampler(scene.problem, 1);
+  MinimalSampler sampler(scene.problem, 0.3, 1);
   std::vector<PlanarTransform> poses;
   sampler.draw(Solver::one_point_one_depth, 128, poses);
   const auto right = std::count_if(poses.begin(), poses.end(), [&](const PlanarTransform& pose) {
     return difference(pose.pose(), scene.map_from_robot).norm() < 1e-6;
   });
   EXPECT_GT(right, 10);  // 32 expected: fewer would be a false alarm in 100,000
+}
+
+// Four odds where it is right, a quarter where it is wrong: at 80 % outliers 2DP samples are right 1 in 4, not 1 in 25.
+TEST(MinimalSampler, DrawsLikelyInliersMoreOften) {
+  Random random(96);
+  Scene scene = randomScene(random, {.matches = 200, .outlier_rate = 0.8, .depth_rate = 1});
+  std::vector<int> inliers;
+  for (std::size_t i = 0; i < scene.inlier.size(); ++i) {
+    scene.problem.matches[i].inlier_odds = scene.inlier[i] ? 4 : 0.25;
+    if (scene.inlier[i]) inliers.push_back(static_cast<int>(i));
+  }
+  MinimalSampler sampler(scene.problem, 0.2, 1);
+  std::vector<PlanarTransform> poses;
+  sampler.draw(Solver::two_depth, 1000, poses);
+  const auto right = std::count_if(poses.begin(), poses.end(), [&](const PlanarTransform& pose) {
+    return difference(pose.pose(), scene.map_from_robot).norm() < 1e-6;
+  });
+  const double expected = 1000 * sampler.chanceOfInliers(Solver::two_depth, inliers);
+  EXPECT_GT(expected, 200);
+  EXPECT_NEAR(static_cast<double>(right), expected, 0.25 * expected);  // over 4 standard deviations: 1 in 10,000
 }
 
 }  // namespace

@@ -166,7 +166,8 @@ TEST(PoseRefiner, ClimbsToWhereRefinementEnds) {
     const RefinedPose refined = refiner.refine(starts.front());
     const Eigen::Vector3d d = difference(climbed.front().map_from_robot.pose(), refined.map_from_robot);
     EXPECT_LT(d.dot(refined.covariance.ldlt().solve(d)), 0.1);
-    const ClimbedPose again = refiner.climb(std::span(starts).subspan(static_cast<std::size_t>(climbed[0].start), 1))[0];
+    const ClimbedPose again =
+        refiner.climb(std::span(starts).subspan(static_cast<std::size_t>(climbed[0].start), 1))[0];
     EXPECT_EQ(again.map_from_robot.x, climbed.front().map_from_robot.x);
     EXPECT_EQ(again.start, 0);
     EXPECT_TRUE(refiner.climb({}).empty());

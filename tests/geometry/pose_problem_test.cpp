@@ -46,6 +46,9 @@ TEST(PoseProblem, NamesWhatIsWrong) {
   EXPECT_EQ(complaint([](auto& p) { p.matches[0].query_camera = 1; }), "match 0: no query camera 1");
   EXPECT_EQ(complaint([](auto& p) { p.matches[0].reference_camera = -1; }), "match 0: no reference camera -1");
   EXPECT_EQ(complaint([](auto& p) { p.matches[0].query_pixel.y() = INFINITY; }), "match 0: pixel is not finite");
+  for (const double odds : {0.0, -1.0, 1e9, double{NAN}})
+    EXPECT_EQ(complaint([=](auto& p) { p.matches[0].inlier_odds = odds; }),
+              "match 0: inlier odds are not in [0.001, 1000]");
   EXPECT_EQ(complaint([](auto& p) { p.matches[0].point->point_in_map.z() = NAN; }), "match 0: point is not finite");
   EXPECT_EQ(complaint([](auto& p) { p.matches[0].point->covariance(0, 0) = -1; }),
             "match 0: point covariance is not positive semidefinite");

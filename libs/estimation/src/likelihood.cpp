@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/estimation/likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -19,23 +20,38 @@ void LikelihoodOptions::check() const {
 PoseLikelihood::Prepared::Prepared(const PoseProblem& problem, const LikelihoodOptions& likelihood_options)
     : options(likelihood_options), inverse_depth_prior(inverseDepthPrior(problem)), matches(problem) {
   if (options.level_outliers) outlier_density.emplace(problem);
-  setOutlierDensity();
+  if (std::ranges::any_of(problem.matches, [](const Match& match) { return match.inlier_odds != 1; }))
+    for (const Match& match : problem.matches) inlier_odds.push_back(match.inlier_odds);
+  weighMatches();
 }
 
 PoseLikelihood::Prepared::Prepared(const Prepared& other, const LikelihoodOptions& likelihood_options)
     : options(likelihood_options),
       inverse_depth_prior(other.inverse_depth_prior),
       outlier_density(other.outlier_density),
-      matches(other.matches) {
-  setOutlierDensity();
+      matches(other.matches),
+      inlier_odds(other.inlier_odds) {
+  weighMatches();
 }
 
-void PoseLikelihood::Prepared::setOutlierDensity() {
-  if (outlier_density) matches.setOutlierDensity(outlier_density->at(options.inlier_prior));
+void PoseLikelihood::Prepared::weighMatches() {
+  const double odds = options.inlier_prior / (1 - options.inlier_prior);
+  outlier_sum = 0;
+  for (const double of_match : inlier_odds) outlier_sum -= std::log1p(odds * of_match);
+  if (inlier_odds.empty()) outlier_sum = -matches.match_count * std::log1p(odds);
+  if (!outlier_density && inlier_odds.empty()) return;
+  std::vector<double> worth = inlier_odds;
+  worth.resize(static_cast<std::size_t>(matches.match_count), 1);
+  if (outlier_density) {
+    const std::vector<double> density = outlier_density->at(options.inlier_prior);
+    for (std::size_t i = 0; i < worth.size(); ++i) worth[i] /= density[i];
+  }
+  matches.setWorth(worth);
 }
 
 const std::optional<LikelihoodTerms>& PoseLikelihood::Prepared::terms() const {
-  std::call_once(terms_asked_for_, [&] { terms_ = likelihoodTerms(matches, options, inverse_depth_prior); });
+  std::call_once(terms_asked_for_,
+                 [&] { terms_ = likelihoodTerms(matches, options, inverse_depth_prior, outlier_sum); });
   return terms_;
 }
 
@@ -66,7 +82,7 @@ int PoseLikelihood::matchCount() const { return prepared_->matches.match_count; 
 
 double PoseLikelihood::operator()(const Rigid3& map_from_robot) const {
   const Prepared& p = *prepared_;
-  LogLikelihoodSum sum(p.options.inlier_prior, p.matches.match_count);
+  LogLikelihoodSum sum(p.options.inlier_prior, p.outlier_sum);
   p.visit<false>(map_from_robot, [&](int, const MatchResidual& residual) { sum.add(residual.likelihood_ratio); });
   return sum.total();
 }

@@ -83,7 +83,7 @@ PointTerms pointTerms(const PointGroup& group, const QueryCamera& query, const L
         ground.x(), ground.y(), overPosition(axes.row(0) - pixel.x() * axes.row(2), query, X.z()),
         overPosition(axes.row(1) - pixel.y() * axes.row(2), query, X.z()), overPosition(axes.row(2), query, X.z())};
     result.terms.push_back({rows, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
-                            choleskyRoot(group.covariance[i]), static_cast<float>(peak / group.outlier_density[i])});
+                            choleskyRoot(group.covariance[i]), static_cast<float>(peak * group.worth[i])});
     // Squared norm of the derivative of the pixel by the point, times depth^2: focal^2 + |p|^2 with the predicted pixel
     // p from the principal point, and |p|^2 <= 1.5 |observed|^2 + 3 e2 / depth^2.
     const double steepness = focal2 + 1.5 * pixel.squaredNorm();
@@ -129,7 +129,7 @@ RayTerms rayTerms(const RayGroup& group, const QueryCamera& query, const Referen
                                overHeading(axes.row(2), direction), overPosition(across, query, height),
                                overPosition(down, query, height)};
     result.terms.push_back({rows, static_cast<float>(pixel_px.x()), static_cast<float>(pixel_px.y()),
-                            static_cast<float>(peak / group.outlier_density[i])});
+                            static_cast<float>(peak * group.worth[i])});
     const double steepness = by_reference2 * (focal2_px + 1.5 * pixel_px.squaredNorm());  // as for points
     result.gates.push_back({{rounded(rows.infinite_u), rounded(rows.infinite_v), rounded(rows.infinite_depth),
                              rounded(rows.parallax_u), rounded(rows.parallax_v)},
@@ -185,7 +185,7 @@ std::vector<Eigen::Vector2d> places(const MatchGroups& matches) {
 }  // namespace
 
 std::optional<LikelihoodTerms> likelihoodTerms(const MatchGroups& matches, const LikelihoodOptions& options,
-                                               const InverseDepthPrior& prior) {
+                                               const InverseDepthPrior& prior, double outlier_sum) {
   if (!fitsSinglePrecision(matches, options)) return std::nullopt;
   LikelihoodTerms result;
   const std::vector<Eigen::Vector2d> all = places(matches);
@@ -195,19 +195,19 @@ std::optional<LikelihoodTerms> likelihoodTerms(const MatchGroups& matches, const
   for (const Eigen::Vector2d& place : all) extent = std::max(extent, (place - result.origin).norm());
   if (!(extent < widest)) return std::nullopt;
 
-  double least_density = 1;
-  const auto addDensities = [&](const auto& groups) {
+  double largest_worth = 1;
+  const auto addWorth = [&](const auto& groups) {
     for (const auto& group : groups)
-      for (const double density : group.outlier_density) least_density = std::min(least_density, density);
+      for (const double worth : group.worth) largest_worth = std::max(largest_worth, worth);
   };
-  addDensities(matches.points);
-  addDensities(matches.rays);
+  addWorth(matches.points);
+  addWorth(matches.rays);
   double largest_factor = 1;
   for (const QueryCamera& query : matches.query_cameras)
-    largest_factor = std::max(largest_factor, 1 + peakOdds(query.camera, options) / least_density);
+    largest_factor = std::max(largest_factor, 1 + peakOdds(query.camera, options) * largest_worth);
   result.matches_per_renormal = static_cast<int>(std::min(125 / std::log2(largest_factor), 1e6));
   if (result.matches_per_renormal < 1) return std::nullopt;
-  result.outlier_sum = matches.match_count * std::log(1 - options.inlier_prior);
+  result.outlier_sum = outlier_sum;
   const auto queryOf = [&](const auto& group) { return matches.query_cameras[std::size_t(group.query)]; };
   for (const PointGroup& group : matches.points)
     result.points.push_back(pointTerms(group, queryOf(group), options, result.origin, extent));

@@ -94,7 +94,7 @@ struct LikelihoodTerms {
 /// Nothing where a number is too large or too small for single precision: positions over 1 km apart, noise outside
 /// of [0.01, 1e4] px, focal lengths or pixels of 1e6 times the noise, points known to 100 m only.
 std::optional<LikelihoodTerms> likelihoodTerms(const MatchGroups& matches, const LikelihoodOptions& options,
-                                               const InverseDepthPrior& prior);
+                                               const InverseDepthPrior& prior, double outlier_sum);
 
 /// Whether evaluateTerms may be called: a rotation, within 1 km of the matches.
 bool isWithinReach(const LikelihoodTerms& terms, const PlanarTransform& map_from_robot);

@@ -21,7 +21,7 @@ MatchGroups::MatchGroups(const PoseProblem& problem)
       group.pixel.push_back(match.query_pixel);
       group.point_in_map.push_back(match.point->point_in_map);
       group.covariance.push_back(match.point->covariance);
-      group.outlier_density.push_back(1);
+      group.worth.push_back(1);
     } else {
       RayGroup& group = rays_of[{match.query_camera, match.reference_camera}];
       group.query = match.query_camera;
@@ -29,18 +29,18 @@ MatchGroups::MatchGroups(const PoseProblem& problem)
       group.match.push_back(i);
       group.query_pixel.push_back(match.query_pixel);
       group.reference_pixel.push_back(match.reference_pixel);
-      group.outlier_density.push_back(1);
+      group.worth.push_back(1);
     }
   }
   for (auto& [key, group] : points_of) points.push_back(std::move(group));
   for (auto& [key, group] : rays_of) rays.push_back(std::move(group));
 }
 
-void MatchGroups::setOutlierDensity(const std::vector<double>& density) {
+void MatchGroups::setWorth(const std::vector<double>& worth) {
   const auto set = [&](auto& groups) {
     for (auto& group : groups) {
-      group.outlier_density.clear();
-      for (const int match : group.match) group.outlier_density.push_back(density[static_cast<std::size_t>(match)]);
+      group.worth.clear();
+      for (const int match : group.match) group.worth.push_back(worth[static_cast<std::size_t>(match)]);
     }
   };
   set(points);

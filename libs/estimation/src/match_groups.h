@@ -15,7 +15,7 @@ struct PointGroup {
   std::vector<Eigen::Vector2d> pixel;
   std::vector<Eigen::Vector3d> point_in_map;
   std::vector<Eigen::Matrix3d> covariance;
-  std::vector<double> outlier_density;  ///< at the pixel, over one uniform in the image
+  std::vector<double> worth;  ///< of a likelihood ratio against outliers uniform in the image
 };
 
 /// Matches without depth between one query and one reference camera.
@@ -25,15 +25,16 @@ struct RayGroup {
   std::vector<int> match;
   std::vector<Eigen::Vector2d> query_pixel;
   std::vector<Eigen::Vector2d> reference_pixel;
-  std::vector<double> outlier_density;  ///< at the query pixel, over one uniform in the image
+  std::vector<double> worth;
 };
 
-/// The matches of a problem, those evaluated alike together; outliers are uniform unless told otherwise.
+/// The matches of a problem, those evaluated alike together.
 struct MatchGroups {
   explicit MatchGroups(const PoseProblem& problem);
 
-  /// By index of the match.
-  void setOutlierDensity(const std::vector<double>& density);
+  /// What a match's likelihood ratio against outliers that are uniform in the image is to be multiplied with: the odds
+  /// of the match over the density of outliers at its pixel. By index of the match; 1 until set.
+  void setWorth(const std::vector<double>& worth);
 
   std::vector<QueryCamera> query_cameras;
   std::vector<ReferenceCamera> reference_cameras;

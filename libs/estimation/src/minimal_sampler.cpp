@@ -32,24 +32,30 @@ uint64_t largestOf(uint64_t number, CombinationsOf&& combinations_of) {
 
 }  // namespace
 
-MinimalSampler::MinimalSampler(const PoseProblem& problem, uint64_t seed) : random_(seed) {
+MinimalSampler::MinimalSampler(const PoseProblem& problem, double inlier_prior, uint64_t seed) : random_(seed) {
   std::vector<std::size_t> order(problem.matches.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = order.size(); i > 1; --i)
     std::swap(order[i - 1], order[random_.below(static_cast<uint32_t>(i))]);
+  const double odds = inlier_prior / (1 - inlier_prior);
   for (const std::size_t index : order) {
     const Match& match = problem.matches[index];
     const RayToRay rays = raysOfMatch(problem, match);
     if (match.point) {
       with_depth_.push_back({rays.ray_in_robot, match.point->point_in_map});
       ray_of_depth_.push_back(rays_.size());
-      match_of_depth_.push_back(static_cast<int>(index));
     }
     rays_.push_back(rays);
+    match_of_ray_.push_back(static_cast<int>(index));
+    chances_.push_back(odds * match.inlier_odds / (1 + odds * match.inlier_odds));
     const auto apart = [](const Ray& a, const Ray& b) { return (a.origin - b.origin).norm() > 0.01; };
     has_baseline_ |=
         apart(rays.ray_in_map, rays_.front().ray_in_map) || apart(rays.ray_in_robot, rays_.front().ray_in_robot);
   }
+  if (chances_.empty()) return;
+  const auto [least, largest] = std::ranges::minmax(chances_);
+  for (double& chance : chances_) chance /= largest;
+  if (least == largest) chances_.clear();
 }
 
 bool MinimalSampler::canDraw(Solver kind) const {
@@ -74,10 +80,20 @@ double MinimalSampler::sampleCount(Solver kind) const {
 }
 
 double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inliers) const {
-  std::size_t depth = 0;
-  for (const int match : match_of_depth_) depth += std::binary_search(inliers.begin(), inliers.end(), match);
-  const double any = double(inliers.size()) / double(rays_.size());
-  const double deep = with_depth_.empty() ? 0 : double(depth) / double(with_depth_.size());
+  double any = 0, all = 0, deep = 0, all_deep = 0;
+  const auto isInlier = [&](std::size_t ray) {
+    return std::binary_search(inliers.begin(), inliers.end(), match_of_ray_[ray]);
+  };
+  for (std::size_t ray = 0; ray < rays_.size(); ++ray) {
+    all += chance(ray);
+    if (isInlier(ray)) any += chance(ray);
+  }
+  for (const std::size_t ray : ray_of_depth_) {
+    all_deep += chance(ray);
+    if (isInlier(ray)) deep += chance(ray);
+  }
+  any /= all;
+  deep = with_depth_.empty() ? 0 : deep / all_deep;
   if (kind == Solver::two_depth) return deep * deep;
   return kind == Solver::three_rays ? any * any * any : deep * any;
 }
@@ -85,34 +101,49 @@ double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inli
 void MinimalSampler::draw(Solver kind, int count, std::vector<PlanarTransform>& poses) {
   EvenOrder& order = orders_.try_emplace(kind, static_cast<uint64_t>(sampleCount(kind)), random_).first->second;
   for (int i = 0; i < count; ++i) {
-    const uint64_t sample = order.next();
-    if (kind == Solver::one_point_one_depth) addOnePointOneDepth(sample, poses);
-    if (kind == Solver::two_depth) addTwoDepth(sample, poses);
-    if (kind == Solver::three_rays) addThreeRays(sample, poses);
+    Members members = membersOf(kind, order.next());
+    while (!isTaken(kind, members)) members = membersOf(kind, order.next());
+    addPoses(kind, members, poses);
   }
 }
 
-void MinimalSampler::addOnePointOneDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const {
-  const std::size_t depth = sample / (rays_.size() - 1);
-  std::size_t other = sample % (rays_.size() - 1);
-  if (other >= ray_of_depth_[depth]) ++other;
-  const PlanarRoots roots = solveOnePointOneDepth(with_depth_[depth], rays_[other]);
-  poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
-}
-
-void MinimalSampler::addTwoDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const {
-  const uint64_t second = largestOf(sample, pairsOf);
-  const std::array<RayToPoint, 2> pair{with_depth_[sample - pairsOf(second)], with_depth_[second]};
-  if (const auto pose = solveDepthPoints(pair)) poses.push_back(*pose);
-}
-
-void MinimalSampler::addThreeRays(uint64_t sample, std::vector<PlanarTransform>& poses) const {
+MinimalSampler::Members MinimalSampler::membersOf(Solver kind, uint64_t sample) const {
+  if (kind == Solver::one_point_one_depth) {
+    const std::size_t depth = sample / (rays_.size() - 1), other = sample % (rays_.size() - 1);
+    return {depth, other < ray_of_depth_[depth] ? other : other + 1};
+  }
+  if (kind == Solver::two_depth) {
+    const uint64_t second = largestOf(sample, pairsOf);
+    return {sample - pairsOf(second), second};
+  }
   const uint64_t third = largestOf(sample, triplesOf);
   sample -= triplesOf(third);
   const uint64_t second = largestOf(sample, pairsOf);
-  const std::vector<PlanarTransform> found =
-      solveThreeRays({rays_[sample - pairsOf(second)], rays_[second], rays_[third]});
-  poses.insert(poses.end(), found.begin(), found.end());
+  return {sample - pairsOf(second), second, third};
+}
+
+bool MinimalSampler::isTaken(Solver kind, const Members& members) {
+  constexpr double least = 0.01;  // so that no sample is out of the question, nor waited for
+  if (chances_.empty()) return true;
+  const auto& [a, b, c] = members;
+  double all = 1;
+  if (kind == Solver::one_point_one_depth) all = chance(ray_of_depth_[a]) * chance(b);
+  if (kind == Solver::two_depth) all = chance(ray_of_depth_[a]) * chance(ray_of_depth_[b]);
+  if (kind == Solver::three_rays) all = chance(a) * chance(b) * chance(c);
+  return random_.uniform() < std::max(all, least);
+}
+
+void MinimalSampler::addPoses(Solver kind, const Members& members, std::vector<PlanarTransform>& poses) const {
+  const auto& [a, b, c] = members;
+  if (kind == Solver::one_point_one_depth) {
+    const PlanarRoots roots = solveOnePointOneDepth(with_depth_[a], rays_[b]);
+    poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
+  } else if (kind == Solver::two_depth) {
+    if (const auto pose = solveDepthPoints(std::array{with_depth_[a], with_depth_[b]})) poses.push_back(*pose);
+  } else {
+    const std::vector<PlanarTransform> found = solveThreeRays({rays_[a], rays_[b], rays_[c]});
+    poses.insert(poses.end(), found.begin(), found.end());
+  }
 }
 
 }  // namespace vmcl

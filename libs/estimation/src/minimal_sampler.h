@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -16,29 +17,34 @@ namespace vmcl {
 /// Draws minimal samples from the matches of a problem and solves them.
 class MinimalSampler {
  public:
-  MinimalSampler(const PoseProblem& problem, uint64_t seed);
+  /// inlier_prior: chance that a match with odds 1 is an inlier.
+  MinimalSampler(const PoseProblem& problem, double inlier_prior, uint64_t seed);
 
   /// Whether there are matches enough for a sample of this kind.
   bool canDraw(Solver kind) const;
   /// How many samples there are.
   double sampleCount(Solver kind) const;
-  /// Chance that a sample holds no outlier, if these matches are the inliers (increasing indices).
+  /// Chance that a sample as drawn holds no outlier, if these matches are the inliers (increasing indices).
   double chanceOfInliers(Solver kind, const std::vector<int>& inliers) const;
 
-  /// Appends the poses of the next `count` samples of a kind that can be drawn: in random order, each once before any
-  /// comes again.
+  /// Appends the poses of the next `count` samples of a kind that can be drawn, in random order: each once before any
+  /// comes again or, where the matches' odds differ, in proportion to the chances that its matches are inliers.
   void draw(Solver kind, int count, std::vector<PlanarTransform>& poses);
 
  private:
-  void addOnePointOneDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const;
-  void addTwoDepth(uint64_t sample, std::vector<PlanarTransform>& poses) const;
-  void addThreeRays(uint64_t sample, std::vector<PlanarTransform>& poses) const;
+  /// A depth and a ray; two depths; three rays: indices into with_depth_ and rays_.
+  using Members = std::array<std::size_t, 3>;
+  Members membersOf(Solver kind, uint64_t sample) const;
+  bool isTaken(Solver kind, const Members& members);
+  void addPoses(Solver kind, const Members& members, std::vector<PlanarTransform>& poses) const;
+  double chance(std::size_t ray) const { return chances_.empty() ? 1 : chances_[ray]; }
 
   std::vector<RayToRay> rays_;  ///< of every match, shuffled
-  bool has_baseline_ = false;   ///< rays of either side come from two places or more, 1 cm apart
+  std::vector<int> match_of_ray_;
+  std::vector<double> chances_;  ///< of rays_ to be inliers, over the largest; empty where all are the same
+  bool has_baseline_ = false;    ///< rays of either side come from two places or more, 1 cm apart
   std::vector<RayToPoint> with_depth_;
   std::vector<std::size_t> ray_of_depth_;  ///< index of with_depth_'s entries in rays_
-  std::vector<int> match_of_depth_;        ///< and in the problem
   Random random_;
   std::map<Solver, EvenOrder> orders_;
 };

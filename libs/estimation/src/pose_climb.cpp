@@ -33,8 +33,8 @@ class Climb {
     return {moved.c / norm, moved.s / norm, moved.x, moved.y};
   }
 
-  /// Takes the step to `pose`, where L is as `slope` says, if it leads up. All but at the top the slope may point beyond
-  /// the top of L, since it leaves a part of L out.
+  /// Takes the step to `pose`, where L is as `slope` says, if it leads up. All but at the top the slope may point
+  /// beyond the top of L, since it leaves a part of L out.
   void take(const PlanarTransform& pose, const PlanarSlope& slope) {
     constexpr double worthwhile = 0.05, hopeless_damping = 1e3;
     if (slope.log_likelihood > reached_.slope.log_likelihood) {

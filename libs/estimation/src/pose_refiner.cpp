@@ -98,7 +98,7 @@ PoseRefiner::Linearization PoseRefiner::linearize(const RefinedPose& pose) const
   const auto& p = *likelihood_.prepared_;
   const TurnAxes axes(pose);
   Linearization sum;
-  LogLikelihoodSum log_likelihood(p.options.inlier_prior, p.matches.match_count);
+  LogLikelihoodSum log_likelihood(p.options.inlier_prior, p.outlier_sum);
   p.visit(pose.rigid(), [&](int, const MatchResidual& r) {
     log_likelihood.add(r.likelihood_ratio);
     const Eigen::Matrix<double, 2, 3> by_turn = r.pixel_by_point * crossMatrix(r.arm);
@@ -212,15 +212,17 @@ void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose)
 }
 
 double PoseRefiner::inlierRate(const RefinedPose& pose, double prior_rate) const {
-  constexpr double prior_matches = 15;
+  constexpr double prior_matches = 15, most_inliers = 1 - 1e-6;
   const auto& p = *likelihood_.prepared_;
   std::vector<double> ratios;
   p.visit(pose.rigid(), [&](int, const MatchResidual& residual) { ratios.push_back(residual.likelihood_ratio); });
   double rate = prior_rate;
   for (int i = 0; i < 20; ++i) {
-    double inliers = prior_matches * prior_rate;
+    double inliers = prior_matches * prior_rate, expected = prior_matches * rate;
     for (const double ratio : ratios) inliers += responsibility(ratio, rate);
-    rate = inliers / (prior_matches + p.matches.match_count);
+    for (const double odds : p.inlier_odds) expected += responsibility(odds, rate);
+    if (p.inlier_odds.empty()) expected += p.matches.match_count * rate;
+    rate = std::min(rate * inliers / expected, most_inliers);
   }
   return rate;
 }

@@ -15,12 +15,12 @@
 
 namespace vmcl {
 
-/// log(1 - e + e r) = log(1 - e) + log(1 + e r / (1 - e)), summed over the likelihood ratios r of matches: most add only
-/// the first part, and the product of the second runs several matches to a logarithm.
+/// log(1 - e + e r) = log(1 - e) + log(1 + e r / (1 - e)), summed over the likelihood ratios r of matches: most add
+/// only the first part, outlier_sum over all, and the product of the second runs several matches to a logarithm.
 class LogLikelihoodSum {
  public:
-  LogLikelihoodSum(double inlier_prior, int match_count)
-      : sum_(match_count * std::log1p(-inlier_prior)), odds_(inlier_prior / (1 - inlier_prior)) {}
+  LogLikelihoodSum(double inlier_prior, double outlier_sum)
+      : sum_(outlier_sum), odds_(inlier_prior / (1 - inlier_prior)) {}
 
   void add(double likelihood_ratio) {
     product_ *= 1 + odds_ * likelihood_ratio;
@@ -44,6 +44,8 @@ struct PoseLikelihood::Prepared {
   InverseDepthPrior inverse_depth_prior;
   std::optional<OutlierDensity> outlier_density;  ///< uniform if there is none
   MatchGroups matches;
+  std::vector<double> inlier_odds;  ///< by match, over those of the share of inliers; empty where all are 1
+  double outlier_sum = 0;           ///< L of a pose that explains nothing
 
   /// For many planar poses at once; made when first asked for.
   const std::optional<LikelihoodTerms>& terms() const;
@@ -57,7 +59,7 @@ struct PoseLikelihood::Prepared {
       const PointView view(matches.query_cameras[static_cast<std::size_t>(group.query)], map_from_robot, options);
       for (std::size_t i = 0; i < group.pixel.size(); ++i) {
         view.template evaluate<with_derivatives>(group.pixel[i], group.point_in_map[i], group.covariance[i], residual);
-        residual.likelihood_ratio /= group.outlier_density[i];
+        residual.likelihood_ratio *= group.worth[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }
@@ -67,14 +69,14 @@ struct PoseLikelihood::Prepared {
                          inverse_depth_prior);
       for (std::size_t i = 0; i < group.query_pixel.size(); ++i) {
         view.template evaluate<with_derivatives>(group.query_pixel[i], group.reference_pixel[i], residual);
-        residual.likelihood_ratio /= group.outlier_density[i];
+        residual.likelihood_ratio *= group.worth[i];
         if (residual.likelihood_ratio > 0) on_match(group.match[i], residual);
       }
     }
   }
 
  private:
-  void setOutlierDensity();
+  void weighMatches();
 
   mutable std::once_flag terms_asked_for_;
   mutable std::optional<LikelihoodTerms> terms_;

@@ -15,8 +15,8 @@ namespace {
 bool alike(const Hypothesis& a, const Hypothesis& b) {
   constexpr double near = 0.02;
   const double dx = a.pose.x - b.pose.x, dy = a.pose.y - b.pose.y;
-  return dx * dx + dy * dy < near * near &&
-         std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near && a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
+  return dx * dx + dy * dy < near * near && std::abs(a.pose.s * b.pose.c - a.pose.c * b.pose.s) < near &&
+         a.pose.c * b.pose.c + a.pose.s * b.pose.s > 0;
 }
 
 /// Kinds of samples that are wanted and possible.
@@ -34,7 +34,9 @@ std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
 class Search {
  public:
   Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
-      : sampler_(problem, options.seed), likelihood_(likelihood), refiner_(likelihood, {}) {
+      : sampler_(problem, options.likelihood.inlier_prior, options.seed),
+        likelihood_(likelihood),
+        refiner_(likelihood, {}) {
     for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
     if (kinds_.size() > 1) at_first_ = std::clamp(options.iterations / static_cast<int>(kinds_.size()), 1, at_first_);
     int left = options.iterations;

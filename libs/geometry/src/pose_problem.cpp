@@ -50,6 +50,7 @@ void PoseProblem::check() const {
     require(match.reference_camera >= 0 && match.reference_camera < static_cast<int>(reference_cameras.size()),
             name + ": no reference camera " + std::to_string(match.reference_camera));
     require(match.query_pixel.allFinite() && match.reference_pixel.allFinite(), name + ": pixel is not finite");
+    require(match.inlier_odds >= 1e-3 && match.inlier_odds <= 1e3, name + ": inlier odds are not in [0.001, 1000]");
     if (match.point) checkPoint(*match.point, name);
   }
 }

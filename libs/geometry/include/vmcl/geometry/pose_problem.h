@@ -37,6 +37,9 @@ struct Match {
   int reference_camera = 0;
   Eigen::Vector2d reference_pixel = Eigen::Vector2d::Zero();
   std::optional<MapPoint> point;
+  /// Odds that this match is an inlier over those of a match of which no more is known: of how distinctive it is, or how
+  /// sure its detector. In [0.001, 1000].
+  double inlier_odds = 1;
 };
 
 /// All that is known for one pose: find robot_in_map = map_from_robot.
@@ -46,7 +49,7 @@ struct PoseProblem {
   std::vector<Match> matches;
 
   /// Throws std::invalid_argument naming the entry: bad camera, camera index out of range, rotation not orthonormal
-  /// (1e-6), a value that is not finite, a covariance that is not symmetric positive semidefinite.
+  /// (1e-6), a value that is not finite, a covariance that is not symmetric positive semidefinite, odds out of range.
   void check() const;
 };
 
