@@ -37,6 +37,11 @@ struct Candidate {
   bool has_reliable_depth = false;
 };
 
+/// Odds of a match by its ratio, over those of all: fitted to where the pixels of 255,000 SIFT matches between day and
+/// evening fall in simulated rooms, at the true pose; 60 at most. It is all but the same in each; ORB's is a little
+/// flatter.
+double inlierOdds(float ratio) { return std::exp(11 * (0.63 - std::max(double{ratio}, 0.26))); }
+
 double largestSigma(const Landmark& landmark) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(landmark.covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
@@ -136,6 +141,7 @@ struct Relocalizer::State {
     match.reference_camera = candidate.reference_camera;
     match.reference_pixel =
         reference.features.pixels[static_cast<std::size_t>(candidate.reference_feature)].cast<double>();
+    match.inlier_odds = inlierOdds(candidate.ratio);
     if (candidate.has_reliable_depth) {
       const Landmark& landmark = map->landmarks[static_cast<std::size_t>(candidate.landmark)];
       match.point = MapPoint{landmark.point_in_map, landmark.covariance};
@@ -147,8 +153,7 @@ struct Relocalizer::State {
     const int query_camera = static_cast<int>(result.problem.query_cameras.size());
     result.problem.query_cameras.push_back({image.calibration.pinhole, image.robot_from_camera});
     Stopwatch stopwatch;
-    const FeatureSet query =
-        extractor.extract(image.image, image.calibration, image.mask, image.mask_rows_from_top);
+    const FeatureSet query = extractor.extract(image.image, image.calibration, image.mask, image.mask_rows_from_top);
     stopwatch.addTo(result.times.features);
     if (query.size() == 0) return;
     const std::vector<RetrievedPlace> places =
