@@ -100,6 +100,11 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
                                                      {"2dp", Solver::two_depth},
                                                      {"3p", Solver::three_rays}};
   addChoice(*verb, "--solver", options->estimator.solver, solvers, "kind of samples drawn")->default_str("auto");
+  static const std::map<std::string, Motion> motions{
+      {"planar", Motion::planar}, {"upright", Motion::upright}, {"free", Motion::free}};
+  addChoice(*verb, "--motion", options->estimator.motion, motions,
+            "how the robot may stand: on the ground, at any height, anyhow")
+      ->default_str("planar");
   verb->add_option("--iterations", options->estimator.iterations, "most samples drawn")->capture_default_str();
   verb->add_option("--seed", options->estimator.seed, "same seed, same answers")
       ->check(CLI::NonNegativeNumber)

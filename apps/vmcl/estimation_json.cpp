@@ -94,6 +94,9 @@ Match parseMatch(const Json& json, const std::vector<ReferenceCamera>& reference
 
 Json pose(const PlanarPose& p) { return Json::array({p.x, p.y, p.phi}); }
 
+/// Roll, pitch, height.
+Json offPlane(const PoseMode& mode) { return Json::array({mode.roll, mode.pitch, mode.height}); }
+
 Json covariance(const Eigen::Matrix3d& matrix) {
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r)
@@ -137,10 +140,12 @@ std::string formatEstimate(const std::string& id, const PoseEstimate& estimate, 
   if (estimate.found()) {
     const PoseMode& first = estimate.modes.front();
     json["robot_in_map"] = pose(first.robot_in_map);
+    json["off_plane"] = offPlane(first);
     json["cov"] = covariance(first.covariance);
     Json& modes = json["modes"] = Json::array();
     for (const PoseMode& mode : estimate.modes)
       modes.push_back({{"robot_in_map", pose(mode.robot_in_map)},
+                       {"off_plane", offPlane(mode)},
                        {"cov", covariance(mode.covariance)},
                        {"log_weight", mode.log_weight},
                        {"inliers", mode.inliers.size()}});

@@ -9,6 +9,7 @@
 
 #include "best_distinct.h"
 #include "sample_search.h"
+#include "spatial_search.h"
 
 namespace vmcl {
 
@@ -20,6 +21,9 @@ void EstimatorOptions::check() const {
   positive("refined", refined);
   positive("max_modes", max_modes);
   if (!std::isfinite(in_sight_log_odds)) throw std::invalid_argument("in_sight_log_odds must be finite");
+  if (motion != Motion::planar && solver != Solver::automatic)
+    throw std::invalid_argument("solver must be automatic where motion is not planar");
+  if (solver == Solver::three_depth) throw std::invalid_argument("solver 3dp is that of free motion");
   likelihood.check();
   plane.check();
 }
@@ -43,6 +47,7 @@ bool isBetterThanChance(const RefinedPose& refined, const PoseLikelihood& as_exp
   return std::max(expected, logEvidence(refined) + log_odds_of_another_share) + in_sight_log_odds > 0;
 }
 
+/// A pose to be refined, or refined, and the kind of the sample that led to it.
 struct RefinedHypothesis {
   RefinedPose pose;
   Solver solver;
@@ -60,7 +65,7 @@ bool isPlace(const RefinedPose& pose, const PoseProblem& problem) {
 
 /// Each optimized, those without a place dropped, the heaviest first, and of those that ended at one peak the first.
 std::vector<RefinedHypothesis> refined(const PoseProblem& problem, const PoseRefiner& refiner,
-                                       const std::vector<Hypothesis>& hypotheses) {
+                                       const std::vector<RefinedHypothesis>& hypotheses) {
   std::vector<RefinedHypothesis> all;
   std::vector<double> evidence;
   for (const auto& [pose, solver] : hypotheses) {
@@ -90,36 +95,59 @@ double hopelessBelow(const SoftPlane& plane) {
 }
 
 /// The peaks above the hypotheses, the highest first, without those whose log likelihood is `hopeless` below the best.
-std::vector<Hypothesis> summitsAbove(const PoseRefiner& climber, const std::vector<Hypothesis>& starts,
-                                     double hopeless) {
+std::vector<RefinedHypothesis> summitsAbove(const PoseRefiner& climber, const std::vector<Hypothesis>& starts,
+                                            double hopeless) {
   std::vector<PlanarTransform> poses;
   for (const Hypothesis& start : starts) poses.push_back(start.pose);
   const std::vector<ClimbedPose> climbed = climber.climb(poses);
   double best = -std::numeric_limits<double>::infinity();
   for (const ClimbedPose& one : climbed)
     if (fixesThePose(one.slope)) best = std::max(best, one.slope.log_likelihood);
-  std::vector<Hypothesis> summits;
+  std::vector<RefinedHypothesis> summits;
   for (const auto& [pose, slope, start] : climbed)
     if (slope.log_likelihood >= best - hopeless)
-      summits.push_back({pose, starts[static_cast<std::size_t>(start)].solver});
+      summits.push_back({RefinedPose::at(pose.rigid()), starts[static_cast<std::size_t>(start)].solver});
   return summits;
+}
+
+/// What the motion leaves free.
+SoftPlane softPlane(const EstimatorOptions& options) {
+  constexpr double any_tilt = 1, any_height = 10;
+  SoftPlane plane = options.plane;
+  if (options.motion == Motion::free) plane.sigma_tilt = any_tilt;
+  if (options.motion != Motion::planar) plane.sigma_height = any_height;
+  return plane;
+}
+
+/// Poses to be refined, the best first; nothing if no sample can be drawn.
+std::optional<std::vector<RefinedHypothesis>> search(const PoseProblem& problem, const PoseLikelihood& likelihood,
+                                                     const EstimatorOptions& options) {
+  if (options.motion == Motion::planar) {
+    const auto starts = searchSamples(problem, likelihood, options);
+    if (!starts) return std::nullopt;
+    return summitsAbove(PoseRefiner(likelihood, {}), *starts, hopelessBelow(options.plane));
+  }
+  const auto starts = searchSpatialSamples(problem, likelihood, options);
+  if (!starts) return std::nullopt;
+  std::vector<RefinedHypothesis> found;
+  for (const auto& [pose, solver] : *starts) found.push_back({RefinedPose::at(pose), solver});
+  return found;
 }
 
 /// The likelihood with the share of inliers and, unless it is known, the pixel noise that show at the peak above the
 /// best pose, which is moved there. To judge and optimize all poses with.
-PoseLikelihood asShownBy(PlanarTransform& best, const PoseLikelihood& first_guess, const EstimatorOptions& options) {
+PoseLikelihood asShownBy(RefinedPose& best, const PoseLikelihood& first_guess, const EstimatorOptions& options) {
   constexpr int max_rounds = 6;
   constexpr double settled = 0.1;  // change of the noise, relative
   const LikelihoodOptions& prior = options.likelihood;
   std::optional<PoseLikelihood> likelihood;
   double sigma_px = prior.sigma_px, change = 1;
   for (int round = 0; round < max_rounds && change > settled; ++round) {
-    const PoseRefiner refiner(likelihood ? *likelihood : first_guess, options.plane);
-    const RefinedPose peak = refiner.refine(best);
-    best = PlanarTransform(peak.map_from_robot);
-    const double inlier_rate = refiner.inlierRate(peak, prior.inlier_prior);
+    const PoseRefiner refiner(likelihood ? *likelihood : first_guess, softPlane(options));
+    best = refiner.refine(best);
+    const double inlier_rate = refiner.inlierRate(best, prior.inlier_prior);
     const double last = sigma_px;
-    if (options.estimate_sigma_px) sigma_px = refiner.sigmaPx(peak, inlier_rate, prior.sigma_px);
+    if (options.estimate_sigma_px) sigma_px = refiner.sigmaPx(best, inlier_rate, prior.sigma_px);
     change = std::abs(std::log(sigma_px / last));
     likelihood = first_guess.with(inlier_rate, sigma_px);
   }
@@ -175,15 +203,13 @@ std::string_view nameOf(NoPose failure) {
 PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& options) {
   options.check();
   const PoseLikelihood first_guess(problem, options.likelihood);
-  const std::optional<std::vector<Hypothesis>> starts = searchSamples(problem, first_guess, options);
-  if (!starts) return noPose(problem.matches.size() < 2 ? NoPose::too_few_matches : NoPose::no_sample);
-  if (starts->empty()) return noPose(NoPose::no_sample);
+  std::optional<std::vector<RefinedHypothesis>> found = search(problem, first_guess, options);
+  if (!found) return noPose(problem.matches.size() < 2 ? NoPose::too_few_matches : NoPose::no_sample);
+  if (found->empty()) return noPose(NoPose::no_sample);
 
-  const PoseRefiner climber(first_guess, {});
-  std::vector<Hypothesis> summits = summitsAbove(climber, *starts, hopelessBelow(options.plane));
-  const PoseLikelihood likelihood = asShownBy(summits.front().pose, first_guess, options);
-  const PoseRefiner refiner(likelihood, options.plane);
-  std::vector<RefinedHypothesis> peaks = refined(problem, refiner, summits);
+  const PoseLikelihood likelihood = asShownBy(found->front().pose, first_guess, options);
+  const PoseRefiner refiner(likelihood, softPlane(options));
+  std::vector<RefinedHypothesis> peaks = refined(problem, refiner, *found);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
   std::erase_if(peaks, [&](const RefinedHypothesis& peak) {
     return !isBetterThanChance(peak.pose, first_guess, options.in_sight_log_odds);
@@ -191,13 +217,14 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (peaks.empty()) return noPose(NoPose::no_better_than_chance);
   PoseEstimate estimate;
   for (const auto& [pose, solver] : peaks)
-    estimate.modes.push_back({pose.map_from_robot, pose.covariance, pose.log_likelihood, logEvidence(pose), 0,
-                              refiner.inliers(pose), solver});
+    estimate.modes.push_back({pose.map_from_robot, pose.roll, pose.pitch, pose.height, pose.covariance,
+                              pose.log_likelihood, logEvidence(pose), 0, refiner.inliers(pose), solver});
   estimate.modes = mergeModes(std::move(estimate.modes), options.max_modes);
   estimate.inlier_rate = likelihood.options().inlier_prior;
   estimate.sigma_px = likelihood.options().sigma_px;
   const PoseMode& best = estimate.modes.front();
   estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, estimate.sigma_px);
+  if (options.motion != Motion::planar) return estimate;
   const auto heaviest = std::ranges::find(peaks, best.log_likelihood,
                                           [](const RefinedHypothesis& peak) { return peak.pose.log_likelihood; });
   estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, heaviest->pose);

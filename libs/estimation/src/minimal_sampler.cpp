@@ -66,6 +66,7 @@ bool MinimalSampler::canDraw(Solver kind) const {
       return with_depth_.size() > 1;
     case Solver::three_rays:
       return rays_.size() > 2 && has_baseline_;
+    case Solver::three_depth:
     case Solver::automatic:
       break;
   }

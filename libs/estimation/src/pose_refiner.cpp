@@ -81,6 +81,17 @@ Rigid3 RefinedPose::rigid() const {
   return pose;
 }
 
+RefinedPose RefinedPose::at(const Rigid3& map_from_robot) {
+  const auto& R = map_from_robot.linear();
+  const auto& t = map_from_robot.translation();
+  RefinedPose pose;
+  pose.map_from_robot = {t.x(), t.y(), std::atan2(R(1, 0), R(0, 0))};
+  pose.roll = std::atan2(R(2, 1), R(2, 2));
+  pose.pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  pose.height = t.z();
+  return pose;
+}
+
 PoseRefiner::PoseRefiner(const PoseLikelihood& likelihood, const SoftPlane& plane)
     : likelihood_(likelihood), sigma_(plane.sigma_tilt, plane.sigma_tilt, plane.sigma_height) {
   plane.check();
@@ -141,8 +152,12 @@ PoseRefiner::Linearization PoseRefiner::withPrior(const RefinedPose& pose) const
 RefinedPose PoseRefiner::refine(const PlanarTransform& start) const {
   RefinedPose pose;
   pose.map_from_robot = start.pose();
-  const Position top = settled(nearTheTop(at(pose)));
-  pose = top.pose;
+  return refine(pose);
+}
+
+RefinedPose PoseRefiner::refine(const RefinedPose& start) const {
+  const Position top = settled(nearTheTop(at(start)));
+  RefinedPose pose = top.pose;
   pose.log_likelihood = top.linear.log_likelihood;
   setUncertainty(top.linear, pose);
   return pose;

@@ -14,10 +14,18 @@
 
 namespace vmcl {
 
+/// How the robot may stand.
+enum class Motion {
+  planar,   ///< on the plane, up to what SoftPlane allows
+  upright,  ///< at any height, tilted as SoftPlane allows: in a lift, on a ledge
+  free      ///< anyhow, looking no more than 60 degrees or so up or down: on a ramp, in somebody's hands
+};
+
 struct EstimatorOptions {
-  Solver solver = Solver::automatic;
-  int iterations = 20000;  ///< most random samples drawn, at least 1; easy problems need few
-  uint64_t seed = 1;       ///< same seed, same answer
+  Motion motion = Motion::planar;     ///< the others are fallbacks: they need two or three matches with depth a sample
+  Solver solver = Solver::automatic;  ///< for planar motion; otherwise left automatic
+  int iterations = 20000;             ///< most random samples drawn, at least 1; easy problems need few
+  uint64_t seed = 1;                  ///< same seed, same answer
   LikelihoodOptions likelihood{};
   bool estimate_sigma_px = false;  ///< whether the pixel noise is but a first guess, to be estimated from the inliers
   int refined = 16;                ///< best hypotheses that are optimized, at least 1
@@ -51,7 +59,7 @@ struct PoseEstimate {
   double inlier_rate = 0;                ///< share of inliers that the modes were judged with
   double sigma_px = 0;                   ///< and standard deviation of a pixel coordinate
   /// Log of how much better the first mode explains the matches with the robot off its plane (0.1 rad, 0.2 m) than as
-  /// SoftPlane allows: over about 5, the data contradict planar motion.
+  /// SoftPlane allows: over about 5, the data contradict planar motion. 0 for other motions.
   double off_plane_log_odds = 0;
 
   bool found() const { return !modes.empty(); }

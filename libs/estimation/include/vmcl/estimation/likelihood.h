@@ -29,8 +29,8 @@ struct LikelihoodOptions {
 ///   covariance carried into the image at that pose, zero behind the camera.
 /// - 2D-2D: the point lies somewhere on the reference ray, its inverse depth distributed as that of the matches with
 ///   depth, or anywhere, and marginalized out; p is a Gaussian across the epipolar segment and spread along it.
-/// u is the density of outliers at the query pixel: uniform over the image, or level, as far as the matches show it. The
-/// odds of e are the prior's times Match::inlier_odds. A pose that explains nothing scores the sum of log(1 - e).
+/// u is the density of outliers at the query pixel: uniform over the image, or level, as far as the matches show it.
+/// The odds of e are the prior's times Match::inlier_odds. A pose that explains nothing scores the sum of log(1 - e).
 class PoseLikelihood {
  public:
   /// Prepares once what every pose needs. Throws std::invalid_argument as PoseProblem::check and options.check do.

@@ -10,15 +10,17 @@
 namespace vmcl {
 
 /// Which minimal samples are drawn: one match with depth and one without (1P1DP), two with depth (2DP), three without
-/// depth that see two references or more, or, by choice of the matches, the first two kinds or else the third.
-enum class Solver { automatic, one_point_one_depth, two_depth, three_rays };
+/// depth that see two references or more, or, by choice of the matches, the first two kinds or else the third. Three
+/// with depth only where the robot is not bound to the ground.
+enum class Solver { automatic, one_point_one_depth, two_depth, three_rays, three_depth };
 
-/// "auto", "1p1dp", "2dp" or "3p".
+/// "auto", "1p1dp", "2dp", "3p" or "3dp".
 std::string_view nameOf(Solver solver);
 
 /// A place where the robot may be: one peak of the likelihood, or several close together.
 struct PoseMode {
   PlanarPose robot_in_map;
+  double roll = 0, pitch = 0, height = 0;                ///< off the plane, as the estimate left them free: rad, m
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi), map frame: m, m, rad
   double log_likelihood = 0;                             ///< L at the heaviest peak
   double log_evidence = 0;                               ///< log odds that the robot is here against chance

@@ -33,6 +33,7 @@ struct RefinedPose {
   bool constrained = false;  ///< whether the matches fix all of x, y and phi; else covariance and evidence mean nothing
 
   Rigid3 rigid() const;
+  static RefinedPose at(const Rigid3& map_from_robot);
 };
 
 /// A planar pose all but at a maximum of L, and how L is there.
@@ -53,6 +54,7 @@ class PoseRefiner {
   /// The likelihood must outlive the refiner.
   PoseRefiner(const PoseLikelihood& likelihood, const SoftPlane& plane);
 
+  RefinedPose refine(const RefinedPose& start) const;
   RefinedPose refine(const PlanarTransform& start) const;
 
   /// Climbs from many poses at once, on the plane and all but to the top, at a small part of the time: to see which are
