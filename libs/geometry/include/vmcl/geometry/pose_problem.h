@@ -37,8 +37,8 @@ struct Match {
   int reference_camera = 0;
   Eigen::Vector2d reference_pixel = Eigen::Vector2d::Zero();
   std::optional<MapPoint> point;
-  /// Odds that this match is an inlier over those of a match of which no more is known: of how distinctive it is, or how
-  /// sure its detector. In [0.001, 1000].
+  /// Odds that this match is an inlier over those of a match of which no more is known: of how distinctive it is, or
+  /// how sure its detector. In [0.001, 1000].
   double inlier_odds = 1;
 };
 
