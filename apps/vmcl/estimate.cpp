@@ -98,7 +98,8 @@ void addEstimateVerb(CLI::App& app, int& exit_code) {
   static const std::map<std::string, Solver> solvers{{"auto", Solver::automatic},
                                                      {"1p1dp", Solver::one_point_one_depth},
                                                      {"2dp", Solver::two_depth},
-                                                     {"3p", Solver::three_rays}};
+                                                     {"3p", Solver::three_rays},
+                                                     {"3b", Solver::three_bearings}};
   addChoice(*verb, "--solver", options->estimator.solver, solvers, "kind of samples drawn")->default_str("auto");
   static const std::map<std::string, Motion> motions{
       {"planar", Motion::planar}, {"upright", Motion::upright}, {"free", Motion::free}};

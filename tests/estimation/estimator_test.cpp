@@ -34,7 +34,8 @@ TEST_P(EachSolver, FindsThePoseAmongOutliers) {
   EXPECT_GE(found, 85);
 }
 INSTANTIATE_TEST_SUITE_P(Solvers, EachSolver,
-                         testing::Values(Solver::automatic, Solver::one_point_one_depth, Solver::two_depth),
+                         testing::Values(Solver::automatic, Solver::one_point_one_depth, Solver::two_depth,
+                                         Solver::three_bearings),
                          [](const auto& test) { return "solver_" + std::string(nameOf(test.param)); });
 
 TEST(Estimator, SameSeedSameAnswer) {

@@ -61,7 +61,8 @@ TEST(MinimalSampler, DrawsEachSampleOnce) {
   Random random(94);
   for (const int matches : {3, 4, 9, 30}) {
     const Scene scene = randomScene(random, {.cameras = 2, .matches = matches, .depth_rate = 0.6, .noise_px = 1});
-    for (const Solver kind : {Solver::one_point_one_depth, Solver::two_depth, Solver::three_rays}) {
+    for (const Solver kind :
+         {Solver::one_point_one_depth, Solver::two_depth, Solver::three_rays, Solver::three_bearings}) {
       if (!MinimalSampler(scene.problem, 0.3, 0).canDraw(kind)) continue;
       const auto poses = allPoses(scene.problem, kind, 1);
       const auto in_other_order = allPoses(scene.problem, kind, 2);

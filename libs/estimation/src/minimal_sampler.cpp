@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "three_bearings.h"
 #include "three_rays.h"
 #include "vmcl/estimation/depth_points.h"
 #include "vmcl/estimation/match_rays.h"
@@ -66,6 +67,8 @@ bool MinimalSampler::canDraw(Solver kind) const {
       return with_depth_.size() > 1;
     case Solver::three_rays:
       return rays_.size() > 2 && has_baseline_;
+    case Solver::three_bearings:
+      return with_depth_.size() > 2;
     case Solver::three_depth:
     case Solver::automatic:
       break;
@@ -77,6 +80,7 @@ double MinimalSampler::sampleCount(Solver kind) const {
   constexpr double many = 0x1p53;  // integers up to here are exact
   const auto n = static_cast<double>(rays_.size()), d = static_cast<double>(with_depth_.size());
   if (kind == Solver::two_depth) return std::min(d * (d - 1) / 2, many);
+  if (kind == Solver::three_bearings) return std::min(d * (d - 1) * (d - 2) / 6, many);
   return std::min(kind == Solver::three_rays ? n * (n - 1) * (n - 2) / 6 : d * (n - 1), many);
 }
 
@@ -96,6 +100,7 @@ double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inli
   any /= all;
   deep = with_depth_.empty() ? 0 : deep / all_deep;
   if (kind == Solver::two_depth) return deep * deep;
+  if (kind == Solver::three_bearings) return deep * deep * deep;
   return kind == Solver::three_rays ? any * any * any : deep * any;
 }
 
@@ -131,14 +136,20 @@ bool MinimalSampler::isTaken(Solver kind, const Members& members) {
   if (kind == Solver::one_point_one_depth) all = chance(ray_of_depth_[a]) * chance(b);
   if (kind == Solver::two_depth) all = chance(ray_of_depth_[a]) * chance(ray_of_depth_[b]);
   if (kind == Solver::three_rays) all = chance(a) * chance(b) * chance(c);
+  if (kind == Solver::three_bearings)
+    all = chance(ray_of_depth_[a]) * chance(ray_of_depth_[b]) * chance(ray_of_depth_[c]);
   return random_.uniform() < std::max(all, least);
 }
 
 void MinimalSampler::addPoses(Solver kind, const Members& members, std::vector<PlanarTransform>& poses) const {
   const auto& [a, b, c] = members;
+  const auto add = [&](const PlanarRoots& found) {
+    poses.insert(poses.end(), found.roots.begin(), found.roots.begin() + found.count);
+  };
   if (kind == Solver::one_point_one_depth) {
-    const PlanarRoots roots = solveOnePointOneDepth(with_depth_[a], rays_[b]);
-    poses.insert(poses.end(), roots.roots.begin(), roots.roots.begin() + roots.count);
+    add(solveOnePointOneDepth(with_depth_[a], rays_[b]));
+  } else if (kind == Solver::three_bearings) {
+    add(solveThreeBearings({with_depth_[a], with_depth_[b], with_depth_[c]}));
   } else if (kind == Solver::two_depth) {
     if (const auto pose = solveDepthPoints(std::array{with_depth_[a], with_depth_[b]})) poses.push_back(*pose);
   } else {

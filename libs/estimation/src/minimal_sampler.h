@@ -32,7 +32,7 @@ class MinimalSampler {
   void draw(Solver kind, int count, std::vector<PlanarTransform>& poses);
 
  private:
-  /// A depth and a ray; two depths; three rays: indices into with_depth_ and rays_.
+  /// A depth and a ray; two or three depths; three rays: indices into with_depth_ and rays_.
   using Members = std::array<std::size_t, 3>;
   Members membersOf(Solver kind, uint64_t sample) const;
   bool isTaken(Solver kind, const Members& members);

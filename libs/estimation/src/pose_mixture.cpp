@@ -15,6 +15,8 @@ std::string_view nameOf(Solver solver) {
       return "2dp";
     case Solver::three_rays:
       return "3p";
+    case Solver::three_bearings:
+      return "3b";
     case Solver::three_depth:
       return "3dp";
     case Solver::automatic:

@@ -25,8 +25,9 @@ std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
   for (const Solver kind : {Solver::two_depth, Solver::one_point_one_depth})
     if ((wanted == kind || wanted == Solver::automatic) && sampler.canDraw(kind)) kinds.push_back(kind);
   const bool rays_alone = wanted == Solver::automatic && kinds.empty();
-  if ((wanted == Solver::three_rays || rays_alone) && sampler.canDraw(Solver::three_rays))
-    kinds.push_back(Solver::three_rays);
+  const Solver other = rays_alone ? Solver::three_rays : wanted;
+  const bool is_other = other == Solver::three_rays || other == Solver::three_bearings;
+  if (is_other && sampler.canDraw(other)) kinds.push_back(other);
   return kinds;
 }
 

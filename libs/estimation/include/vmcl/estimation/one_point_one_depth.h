@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "vmcl/estimation/heading_roots.h"
 #include "vmcl/estimation/rays.h"
 #include "vmcl/geometry/planar_transform.h"
 
@@ -19,9 +20,9 @@ struct PlanarRoots {
 /// the rays: one camera, several references, rigs (MC1P1DP) and earlier frames are the same equation.
 ///
 /// The height of the point fixes where it lies on its ray, a = o_h + lambda f_h, hence t = X_h - R a. Put into the
-/// coplanarity of the two rays of the other match that leaves A cos(phi) + B sin(phi) + C = 0. Where noise pushes the
-/// line past the unit circle the double root on the circle is taken. No root: the point is at camera height (range
-/// unknown) or behind the camera, or the equation vanishes (no baseline, or both matches the same).
+/// coplanarity of the two rays of the other match that leaves A cos(phi) + B sin(phi) + C = 0. No root: the point is at
+/// camera height (range unknown) or behind the camera, or the equation vanishes (no baseline, or both matches the
+/// same).
 inline PlanarRoots solveOnePointOneDepth(const RayToPoint& depth, const RayToRay& match) {
   PlanarRoots result;
   const Eigen::Vector3d& o = depth.ray_in_robot.origin;
@@ -48,19 +49,10 @@ inline PlanarRoots solveOnePointOneDepth(const RayToPoint& depth, const RayToRay
   const double n = A * A + B * B;
   const double scale = f.squaredNorm() * g.squaredNorm() * (ex * ex + ey * ey + kx * kx + ky * ky);
   if (!(n > 1e-24 * scale) || !std::isfinite(n)) return result;
-  const double D = n - C * C;
-  const auto add = [&](double c, double s) {
+  solveHeading(A, B, C, [&](double c, double s) {
     result.roots[static_cast<std::size_t>(result.count++)] = {c, s, X.x() - (c * ax - s * ay),
                                                               X.y() - (s * ax + c * ay)};
-  };
-  if (D <= 0) {
-    const double r = (C > 0 ? -1 : 1) / std::sqrt(n);
-    add(A * r, B * r);
-    return result;
-  }
-  const double root = std::sqrt(D), inverse_n = 1 / n;
-  add((-A * C - B * root) * inverse_n, (-B * C + A * root) * inverse_n);
-  add((-A * C + B * root) * inverse_n, (-B * C - A * root) * inverse_n);
+  });
   return result;
 }
 

@@ -10,11 +10,12 @@
 namespace vmcl {
 
 /// Which minimal samples are drawn: one match with depth and one without (1P1DP), two with depth (2DP), three without
-/// depth that see two references or more, or, by choice of the matches, the first two kinds or else the third. Three
-/// with depth only where the robot is not bound to the ground.
-enum class Solver { automatic, one_point_one_depth, two_depth, three_rays, three_depth };
+/// depth that see two references or more, or, by choice of the matches, the first two kinds or else the third. The
+/// bearings alone of three with depth only on request: even level with the camera they find hardly more. Three with
+/// depth, bearings and elevations, only where the robot is not bound to the ground.
+enum class Solver { automatic, one_point_one_depth, two_depth, three_rays, three_bearings, three_depth };
 
-/// "auto", "1p1dp", "2dp", "3p" or "3dp".
+/// "auto", "1p1dp", "2dp", "3p", "3b" or "3dp".
 std::string_view nameOf(Solver solver);
 
 /// A place where the robot may be: one peak of the likelihood, or several close together.
