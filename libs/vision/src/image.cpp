@@ -89,4 +89,18 @@ Image readImage(const std::filesystem::path& file) {
   }
 }
 
+std::vector<uint8_t> compressImage(const ImageView& image) {
+  if (image.empty() || image.channels != 1) throw std::invalid_argument("no grey image to compress");
+  const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<uint8_t*>(image.pixels), image.row_bytes);
+  std::vector<uint8_t> bytes;
+  cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
+  return bytes;
+}
+
+Image decompressImage(const std::vector<uint8_t>& bytes) try {
+  return decode(std::string(bytes.begin(), bytes.end()));
+} catch (const cv::Exception& error) {
+  throw std::runtime_error(error.err);
+}
+
 }  // namespace vmcl
