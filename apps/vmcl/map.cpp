@@ -151,6 +151,7 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   verb.add_option("--sigma-radial", options.sigma_radial,
                   "standard deviation of the given radial distortion k1 and k2; 0: exact")
       ->capture_default_str();
+  verb.add_flag("--dense", options.dense, "keep the images, so that queries can be matched all over them");
   verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

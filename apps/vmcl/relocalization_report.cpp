@@ -20,15 +20,37 @@ double quantile(std::vector<double> sample, double share) {
   return *rank;
 }
 
+bool isWithin(const std::optional<PoseError>& error, double distance) {
+  return error && error->position <= distance && error->heading <= 5 * degree;
+}
+
+/// The same shares for the methods beside ours.
+void printPeers(std::span<const ImageResult> results) {
+  if (results.empty()) return;
+  for (std::size_t peer = 0; peer < results.front().peers.size(); ++peer) {
+    std::cout << "by " << std::left << std::setw(15) << results.front().peers[peer].first << std::right;
+    const auto compared =
+        std::count_if(results.begin(), results.end(), [](const auto& image) { return image.has_truth; });
+    for (const double limit : {0.25, 0.5, 1.0}) {
+      const auto within = std::count_if(results.begin(), results.end(), [&](const ImageResult& image) {
+        return isWithin(image.peers[peer].second, limit);
+      });
+      std::cout << std::setprecision(1) << std::setw(10)
+                << 100 * static_cast<double>(within) / static_cast<double>(std::max(compared, std::ptrdiff_t{1}))
+                << " %";
+    }
+    std::cout << '\n';
+  }
+}
+
 void printAccuracy(std::span<const ImageResult> results) {
   const auto compared =
       std::count_if(results.begin(), results.end(), [](const auto& image) { return image.has_truth; });
   if (compared == 0) return;
   std::cout << "with ground truth " << std::setw(10) << compared << '\n';
   for (const double limit : {0.25, 0.5, 1.0}) {
-    const auto within = std::count_if(results.begin(), results.end(), [&](const ImageResult& image) {
-      return image.error && image.error->position <= limit && image.error->heading <= 5 * degree;
-    });
+    const auto within = std::count_if(results.begin(), results.end(),
+                                      [&](const ImageResult& image) { return isWithin(image.error, limit); });
     std::cout << "in " << std::setprecision(2) << limit << " m, 5 deg    " << std::setprecision(1) << std::setw(10)
               << 100 * static_cast<double>(within) / static_cast<double>(compared) << " %\n";
   }
@@ -74,6 +96,7 @@ void printTable(std::span<const ImageResult> results) {
   std::cout << std::fixed << "images            " << std::setw(10) << results.size() << "\nfound             "
             << std::setw(10) << found << '\n';
   printAccuracy(results);
+  printPeers(results);
   printLatency(results);
 }
 

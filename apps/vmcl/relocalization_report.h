@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "vmcl/evaluation/trajectory_error.h"
 #include "vmcl/relocalization/relocalizer.h"
@@ -20,6 +22,7 @@ struct ImageResult {
   RelocalizationTimes times{};
   bool has_truth = false;               ///< the ground truth covers the time
   std::optional<PoseError> error = {};  ///< where a pose was found and the truth is known
+  std::vector<std::pair<std::string, std::optional<PoseError>>> peers{};  ///< other methods' errors, by name
 };
 
 /// How many images were found, how well, and how fast.

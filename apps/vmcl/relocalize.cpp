@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/relocalization/relocalizer.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <memory>
+#include <utility>
 
 #include "camera_stream.h"
+#include "choice_option.h"
 #include "coverage.h"
+#include "odometry_reading.h"
 #include "ordered_parallel.h"
 #include "progress_bar.h"
 #include "relocalization_report.h"
@@ -12,52 +18,145 @@
 #include "vmcl/mapping/map_file.h"
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/query_image.h"
+#include "vmcl/relocalization/temporal_rig.h"
+#include "vmcl/study/pose_method.h"
 
 namespace vmcl {
 namespace {
 
 struct Arguments {
   std::string map, rawlog, groundtruth, out;
-  int retrieved = RelocalizerOptions().retrieved;
-  uint64_t seed = EstimatorOptions().seed;
+  RelocalizerOptions options;
+  TemporalRigOptions temporal_rig{.frames = 1};
+  bool rig = false;
+  bool peers = false;
   int threads = 1;
+};
+
+/// The images that are localized together: one, or those that the cameras of a rig took at the same time.
+using Shot = std::vector<CameraObservation>;
+
+/// Images as they come, or by the time they were taken at.
+class ShotReader {
+ public:
+  ShotReader(CameraStream& stream, bool is_rig) : stream_(stream), is_rig_(is_rig) {}
+
+  bool next(Shot& shot) {
+    constexpr double same_time = 0.01;  // s
+    shot.clear();
+    while (waiting_ || (waiting_ = stream_.next())) {
+      const auto isOfAnotherShot = [&](const CameraObservation& taken) {
+        return !is_rig_ || waiting_->label == taken.label || std::abs(waiting_->time - taken.time) > same_time;
+      };
+      if (std::ranges::any_of(shot, isOfAnotherShot)) break;
+      shot.push_back(*std::exchange(waiting_, std::nullopt));
+    }
+    return !shot.empty();
+  }
+
+ private:
+  CameraStream& stream_;
+  bool is_rig_;
+  std::optional<CameraObservation> waiting_;
 };
 
 struct Outcome {
   ImageResult image;
-  std::string failure;  ///< why the image cannot be used; empty for a usable one
+  RelocalizationResult matched;
+  std::string failure;  ///< why the images cannot be used; empty for usable ones
 };
 
-Outcome relocalizeImage(const Relocalizer& relocalizer, const CameraObservation& observation,
-                        const Trajectory& groundtruth) try {
-  const QueryImage query = queryImage(observation, relocalizer.map());
-  RelocalizationResult result = relocalizer.relocalize({&query, 1});
-  ImageResult image{observation.time, observation.label, result.problem.matches.size(), std::move(result.estimate),
-                    result.times};
-  const double max_gap = EvaluationOptions().max_gap;
-  image.has_truth = groundtruth.at(image.time, max_gap).has_value();
-  if (image.estimate.found())
-    image.error = poseError({image.time, true, image.estimate.modes.front().robot_in_map}, groundtruth, max_gap);
-  return {std::move(image), {}};
+Outcome matchShot(const Relocalizer& relocalizer, const Shot& shot) try {
+  std::vector<QueryImage> queries;
+  std::string labels;
+  for (const CameraObservation& observation : shot) {
+    queries.push_back(queryImage(observation, relocalizer.map()));
+    labels += (labels.empty() ? "" : "+") + observation.label;
+  }
+  return {{shot.front().time, labels}, relocalizer.match(queries), {}};
 } catch (const std::exception& error) {
-  return {{observation.time, observation.label}, errorMessage(error)};
+  return {{shot.front().time, shot.front().label}, {}, errorMessage(error)};
 }
 
-/// Relocalizes all images, `threads` at a time, in the order of the log.
+/// The pose from the matches, by peers as well if asked for, and its errors.
+class Estimation {
+ public:
+  Estimation(const Relocalizer& relocalizer, const Trajectory& groundtruth, bool with_peers)
+      : relocalizer_(relocalizer), groundtruth_(groundtruth) {
+    if (!with_peers) return;
+    peers_ = poseMethods();
+    std::erase_if(peers_, [](const PoseMethod& method) { return !method.takes_rigs || method.name == "vmcl"; });
+  }
+
+  void complete(Outcome& outcome) const {
+    ImageResult& image = outcome.image;
+    const PoseProblem& problem = outcome.matched.problem;
+    const auto start = std::chrono::steady_clock::now();
+    image.estimate = estimatePose(problem, relocalizer_.map(), relocalizer_.options().estimator);
+    image.times = outcome.matched.times;
+    image.times.estimation = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    image.matches = problem.matches.size();
+    image.has_truth = groundtruth_.at(image.time, max_gap_).has_value();
+    if (image.estimate.found()) image.error = errorOf(image, image.estimate.modes.front().robot_in_map);
+    for (const PoseMethod& peer : peers_) {
+      const std::vector<PlanarPose> poses = peer.estimate(problem, {.seed = relocalizer_.options().estimator.seed});
+      image.peers.push_back({peer.name, poses.empty() ? std::nullopt : errorOf(image, poses.front())});
+    }
+  }
+
+ private:
+  std::optional<PoseError> errorOf(const ImageResult& image, const PlanarPose& robot_in_map) const {
+    return poseError({image.time, true, robot_in_map}, groundtruth_, max_gap_);
+  }
+
+  const Relocalizer& relocalizer_;
+  const Trajectory& groundtruth_;
+  std::vector<PoseMethod> peers_;
+  const double max_gap_ = EvaluationOptions().max_gap;
+};
+
+/// Joins the matches of frames by odometry.
+class FrameTie {
+ public:
+  FrameTie(const TemporalRigOptions& options, Trajectory odometry) : rig_(options), odometry_(std::move(odometry)) {}
+
+  void extend(Outcome& outcome) {
+    const auto odometry_from_robot = odometry_.at(outcome.image.time);
+    if (odometry_from_robot)
+      outcome.matched = rig_.add(outcome.matched, planarPart(*odometry_from_robot));
+    else
+      outcome.failure = "no odometry at its time";
+  }
+
+ private:
+  TemporalRig rig_;
+  Trajectory odometry_;
+};
+
+/// Relocalizes all images, `threads` at a time, in the order of the log. Frames that are tied together wait for each
+/// other, so that only their matching runs in parallel.
 std::vector<ImageResult> relocalizeAll(CameraStream& stream, const Relocalizer& relocalizer,
-                                       const Trajectory& groundtruth, int threads) {
+                                       const Trajectory& groundtruth, const Arguments& arguments) {
   std::vector<ImageResult> results;
   ProgressBar bar;
-  orderedParallel<CameraObservation, Outcome>(
-      threads,
-      [&](CameraObservation& camera) {
-        std::optional<CameraObservation> next = stream.next();
-        if (next) camera = std::move(*next);
+  ShotReader reader(stream, arguments.rig);
+  const Estimation estimation(relocalizer, groundtruth, arguments.peers);
+  std::optional<FrameTie> tie;
+  if (arguments.temporal_rig.frames > 1) tie.emplace(arguments.temporal_rig, readOdometry(arguments.rawlog));
+  orderedParallel<Shot, Outcome>(
+      arguments.threads,
+      [&](Shot& shot) {
         bar.update("relocalizing", stream.progress());
-        return next.has_value();
+        return reader.next(shot);
       },
-      [&](const CameraObservation& camera) { return relocalizeImage(relocalizer, camera, groundtruth); },
+      [&](const Shot& shot) {
+        Outcome outcome = matchShot(relocalizer, shot);
+        if (outcome.failure.empty() && !tie) estimation.complete(outcome);
+        return outcome;
+      },
       [&](Outcome outcome) {
+        if (outcome.failure.empty() && tie) tie->extend(outcome);
+        if (outcome.failure.empty() && tie) estimation.complete(outcome);
         if (outcome.failure.empty())
           results.push_back(std::move(outcome.image));
         else
@@ -67,14 +166,11 @@ std::vector<ImageResult> relocalizeAll(CameraStream& stream, const Relocalizer& 
 }
 
 ExitCode run(const Arguments& arguments) {
-  RelocalizerOptions options;
-  options.retrieved = arguments.retrieved;
-  options.estimator.seed = arguments.seed;
-  const Relocalizer relocalizer(std::make_shared<const KeyframeMap>(loadMap(arguments.map)), options);
+  const Relocalizer relocalizer(std::make_shared<const KeyframeMap>(loadMap(arguments.map)), arguments.options);
   Trajectory groundtruth;
   if (!arguments.groundtruth.empty()) groundtruth = readTumTrajectory(arguments.groundtruth);
   CameraStream stream(arguments.rawlog);
-  const std::vector<ImageResult> results = relocalizeAll(stream, relocalizer, groundtruth, arguments.threads);
+  const std::vector<ImageResult> results = relocalizeAll(stream, relocalizer, groundtruth, arguments);
   ProblemReport problems = stream.problems();
   if (results.empty())
     throw std::runtime_error(problems.empty() ? arguments.rawlog + ": no camera images" : problems.inOneLine());
@@ -101,10 +197,22 @@ void addRelocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--rawlog", arguments->rawlog, "Log with the camera images")->required();
   verb->add_option("--groundtruth", arguments->groundtruth, "True poses (TUM format) to compare with");
   verb->add_option("--out", arguments->out, "Directory for relocalize.csv and timing.csv");
-  verb->add_option("--retrieved", arguments->retrieved, "Keyframes that each image is matched with")
+  verb->add_option("--retrieved", arguments->options.retrieved, "Keyframes that each image is matched with")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  verb->add_option("--seed", arguments->seed, "Same seed, same answers")
+  addChoice(
+      *verb, "--setting", arguments->options.setting,
+      std::map<std::string, MatchSetting>{
+          {"scsd", MatchSetting::scsd}, {"dcsd", MatchSetting::dcsd}, {"dcdd", MatchSetting::dcdd}},
+      "Matches at features with depth at landmarks (scsd), also anywhere in between (dcsd), with depth there, too "
+      "(dcdd); the latter two need a map made with --dense");
+  verb->add_option("--frames", arguments->temporal_rig.frames,
+                   "Frames localized together, tied by odometry; 0.25 m or 20 deg apart")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
+  verb->add_flag("--rig", arguments->rig, "Localize images that several cameras took at the same time together");
+  verb->add_flag("--peers", arguments->peers, "Also say how well other methods do from the same matches");
+  verb->add_option("--seed", arguments->options.estimator.seed, "Same seed, same answers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("--threads", arguments->threads, "Images worked on at a time; more than 1 lengthens the latencies")

@@ -48,6 +48,7 @@ TEST(KeyframeMap, NamesTheBrokenEntry) {
       {"keyframe 0", [&](KeyframeMap& map) { map.keyframes[0].map_from_robot.translation().x() = nan; }},
       {"keyframe 0", [](KeyframeMap& map) { map.keyframes[0].map_from_robot.linear().col(2) *= -1; }},
       {"keyframe 1", [](KeyframeMap& map) { map.keyframes[1].features.sizes.pop_back(); }},
+      {"keyframe 1", [](KeyframeMap& map) { map.keyframes[1].dense.depth.pop_back(); }},
       {"keyframe 1", [](KeyframeMap& map) { map.keyframes[1].features.kind = FeatureKind::sift; }},
       {"keyframe 1", [&](KeyframeMap& map) { map.keyframes[1].features.pixels[0].x() = std::nanf(""); }},
       {"keyframe 1", [](KeyframeMap& map) { map.keyframes[1].features.descriptors.resize(3, 31); }},

@@ -61,6 +61,10 @@ TEST_F(MapFile, KeepsEveryValue) {
   EXPECT_EQ(loaded.keyframes[2].features.pixels, map.keyframes[2].features.pixels);
   EXPECT_EQ(loaded.keyframes[2].features.descriptors, map.keyframes[2].features.descriptors);
   EXPECT_EQ(loaded.keyframes[2].landmark_of_feature, map.keyframes[2].landmark_of_feature);
+  EXPECT_EQ(loaded.keyframes[2].dense.image, map.keyframes[2].dense.image);
+  EXPECT_EQ(loaded.keyframes[1].dense.depth, map.keyframes[1].dense.depth);
+  EXPECT_TRUE(loaded.keyframes[2].dense.depth.empty());
+  EXPECT_TRUE(loaded.isDense());
   EXPECT_EQ(loaded.landmarks[3].point_in_map, map.landmarks[3].point_in_map);
   EXPECT_EQ(loaded.landmarks[3].covariance, map.landmarks[3].covariance);
   EXPECT_EQ(loaded.vocabulary.words(), map.vocabulary.words());
@@ -73,8 +77,19 @@ TEST_F(MapFile, OpensTheVersionBefore) {
   expected.cameras[1].mask = {};
   expected.cameras[1].depth = DepthSource::none;
   expected.keyframes[2].session = 0;
+  for (Keyframe& keyframe : expected.keyframes) keyframe.dense = {};
   const KeyframeMap loaded = loadMap(std::filesystem::path(VMCL_TEST_DATA_DIR) / "version2.vmap");
   EXPECT_EQ(encodeMap(loaded), encodeMap(expected));
+}
+
+TEST_F(MapFile, TakesTheNetworkBesideTheMap) {
+  KeyframeMap map;
+  map.feature_options.choose("elsewhere/net.onnx");
+  map.feature_options.model.crc32 = 7;
+  saveMap(folder_ / "a.vmap", map);
+  EXPECT_EQ(loadMap(folder_ / "a.vmap").feature_options.model, (FeatureModel{"elsewhere/net.onnx", 7}));
+  std::ofstream(folder_ / "net.onnx") << "a network";
+  EXPECT_EQ(loadMap(folder_ / "a.vmap").feature_options.model, (FeatureModel{(folder_ / "net.onnx").string(), 7}));
 }
 
 TEST_F(MapFile, RefusesEveryCutOffLength) {

@@ -39,8 +39,10 @@ inline KeyframeMap smallMap(uint64_t seed = 1) {
       for (int byte = 0; byte < 32; ++byte)
         keyframe.features.descriptors(i, byte) = static_cast<uint8_t>(random.next());
     }
+    keyframe.dense.image = {uint8_t{1}, uint8_t{2}, static_cast<uint8_t>(k)};
     map.keyframes.push_back(keyframe);
   }
+  map.keyframes[1].dense.depth.assign(5 * 4, 1234);
   const Eigen::MatrixXf words =
       Eigen::MatrixXf::NullaryExpr(2, 256, [&] { return static_cast<float>(random.normal()); });
   map.vocabulary = VladVocabulary(FeatureKind::orb, words);

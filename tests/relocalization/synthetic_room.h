@@ -83,6 +83,18 @@ class SyntheticRoom {
   std::vector<Surface> surfaces_;
 };
 
+/// The image, and the depths of what it shows.
+inline DenseView denseView(const SyntheticRoom& room, const Image& image, const Rigid3& map_from_camera) {
+  DenseView view{compressImage(image.view()), {}};
+  for (int v = 0; v < image.height; v += DenseView::depth_step)
+    for (int u = 0; u < image.width; u += DenseView::depth_step) {
+      const auto point = SyntheticRoom::hit(room, map_from_camera, {u, v});
+      const double depth = point ? (map_from_camera.inverse() * *point).z() : 0;
+      view.depth.push_back(static_cast<uint16_t>(std::lround(1e3 * depth)));
+    }
+  return view;
+}
+
 /// A map of the room from exact truth: keyframes that look at either wall, landmarks merged where they meet.
 inline KeyframeMap mapOf(const SyntheticRoom& room, double sigma = 0.01) {
   KeyframeMap map;
@@ -95,8 +107,9 @@ inline KeyframeMap mapOf(const SyntheticRoom& room, double sigma = 0.01) {
       Keyframe keyframe;
       keyframe.time = static_cast<double>(map.keyframes.size());
       keyframe.map_from_robot = toRigid3(map_from_robot);
-      keyframe.features =
-          extractor.extract(room.look(map_from_robot, SyntheticRoom::mount()).view(), SyntheticRoom::calibration());
+      const Image image = room.look(map_from_robot, SyntheticRoom::mount());
+      keyframe.features = extractor.extract(image.view(), SyntheticRoom::calibration());
+      keyframe.dense = denseView(room, image, map.referenceCamera(keyframe).map_from_camera);
       for (const Eigen::Vector2f& pixel : keyframe.features.pixels) {
         const auto point =
             SyntheticRoom::hit(room, map.referenceCamera(keyframe).map_from_camera, pixel.cast<double>());

@@ -70,6 +70,10 @@ void checkFeatures(const FeatureSet& features, FeatureKind kind, const std::stri
           name + ": a feature is not finite");
 }
 
+bool KeyframeMap::isDense() const {
+  return std::ranges::none_of(keyframes, [](const Keyframe& keyframe) { return keyframe.dense.image.empty(); });
+}
+
 void KeyframeMap::check() const {
   feature_options.check();
   for (std::size_t i = 0; i < cameras.size(); ++i) checkCamera(cameras[i], "camera " + std::to_string(i));
@@ -82,6 +86,10 @@ void KeyframeMap::check() const {
     require(keyframe.session >= 0, name + ": session is negative");
     checkPose(keyframe.map_from_robot, name);
     checkFeatures(keyframe.features, feature_options.kind, name);
+    const PinholeCamera& pinhole = cameras[static_cast<std::size_t>(keyframe.camera)].calibration.pinhole;
+    require(keyframe.dense.depth.empty() ||
+                std::ssize(keyframe.dense.depth) == DenseView::depthColumns(pinhole) * DenseView::depthRows(pinhole),
+            name + ": depths for another size of image");
     require(keyframe.landmark_of_feature.size() == keyframe.features.pixels.size(),
             name + ": not one landmark entry a feature");
     for (int landmark : keyframe.landmark_of_feature)

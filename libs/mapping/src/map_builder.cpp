@@ -105,6 +105,7 @@ bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, cons
   const auto i = static_cast<std::size_t>(camera);
   const MapCamera& taken_by = state_->cameras[i];
   state_->keep(time, camera, *pose, state_->extractors[i].extract(image, taken_by.calibration, taken_by.mask.view()));
+  if (state_->options.dense) state_->keyframes.back().dense.image = compressImage(image);
   return true;
 }
 

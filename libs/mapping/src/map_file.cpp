@@ -22,7 +22,8 @@
 //   vocabulary  rows, columns (counts), f32 by columns
 //   places      rows, columns (counts), f32 by columns
 //   network     file (count, bytes), its CRC-32 u32; no bytes and 0 where features are not those of a network
-// Version 2 had neither masks nor sources of depth nor sessions nor networks.
+//   dense       each keyframe: image (count, bytes), depths (count, u16[]); counts 0 in a map that is not dense
+// Version 2 had neither masks nor sources of depth nor sessions nor networks nor dense data.
 
 namespace vmcl {
 namespace {
@@ -51,15 +52,16 @@ Rigid3 getPose(ByteReader& in) {
   return pose;
 }
 
-void putText(ByteWriter& out, const std::string& text) {
-  out.putCount(text.size());
-  out.putAll(std::span<const char>(text));
+template <class Values>
+void putCounted(ByteWriter& out, const Values& values) {
+  out.putCount(values.size());
+  out.putAll(std::span(values.data(), values.size()));
 }
 
-std::string getText(ByteReader& in) {
-  std::string text(in.getCount(1), '\0');
-  in.getAll(std::span<char>(text));
-  return text;
+template <class Values>
+void getCounted(ByteReader& in, Values& values) {
+  values.resize(in.getCount(sizeof(values[0])));
+  in.getAll(std::span(values.data(), values.size()));
 }
 
 void putMatrix(ByteWriter& out, const Eigen::MatrixXf& matrix) {
@@ -97,7 +99,7 @@ Image getMask(ByteReader& in, const PinholeCamera& camera) {
 }
 
 void putCamera(ByteWriter& out, const MapCamera& camera) {
-  putText(out, camera.label);
+  putCounted(out, camera.label);
   const PinholeCamera& pinhole = camera.calibration.pinhole;
   for (int size : {pinhole.width, pinhole.height}) out.put<int32_t>(size);
   for (double value : {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy}) out.put(value);
@@ -110,7 +112,7 @@ void putCamera(ByteWriter& out, const MapCamera& camera) {
 
 MapCamera getCamera(ByteReader& in, uint32_t version) {
   MapCamera camera;
-  camera.label = getText(in);
+  getCounted(in, camera.label);
   PinholeCamera& pinhole = camera.calibration.pinhole;
   for (int* size : {&pinhole.width, &pinhole.height}) *size = in.get<int32_t>();
   for (double* value : {&pinhole.fx, &pinhole.fy, &pinhole.cx, &pinhole.cy}) *value = in.get<double>();
@@ -203,8 +205,12 @@ std::string encodeContent(const KeyframeMap& map) {
   putCovariance(out, map.pose_covariance);
   putMatrix(out, map.vocabulary.words());
   putMatrix(out, map.place_descriptors);
-  putText(out, map.feature_options.model.file);
+  putCounted(out, map.feature_options.model.file);
   out.put(map.feature_options.model.crc32);
+  for (const Keyframe& keyframe : map.keyframes) {
+    putCounted(out, keyframe.dense.image);
+    putCounted(out, keyframe.dense.depth);
+  }
   return out.take();
 }
 
@@ -226,8 +232,12 @@ KeyframeMap decodeContent(std::string_view content, uint32_t version) {
     map.vocabulary = VladVocabulary(map.feature_options.kind, std::move(words));
   map.place_descriptors = getMatrix(in);
   if (version > 2) {
-    map.feature_options.model.file = getText(in);
+    getCounted(in, map.feature_options.model.file);
     map.feature_options.model.crc32 = in.get<uint32_t>();
+    for (Keyframe& keyframe : map.keyframes) {
+      getCounted(in, keyframe.dense.image);
+      getCounted(in, keyframe.dense.depth);
+    }
   }
   if (!in.remaining().empty()) throw std::runtime_error("content is followed by bytes that do not belong to it");
   map.check();

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
+
+#include "reference_depth.h"
+#include "vmcl/vision/dense_matching.h"
 
 namespace vmcl {
 namespace {
@@ -29,12 +33,10 @@ class Stopwatch {
 
 /// A match of one query image before evidence that repeats itself is dropped.
 struct Candidate {
-  int query_feature = 0;
-  int reference_camera = 0;  ///< of the problem
-  int reference_feature = 0;
+  Match match;
+  bool is_dense = false;
   float ratio = 1;
   int landmark = -1;
-  bool has_reliable_depth = false;
 };
 
 /// Odds of a match by its ratio, over those of all: fitted to where the pixels of 255,000 SIFT matches between day and
@@ -42,32 +44,57 @@ struct Candidate {
 /// flatter.
 double inlierOdds(float ratio) { return std::exp(11 * (0.63 - std::max(double{ratio}, 0.26))); }
 
-double largestSigma(const Landmark& landmark) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(landmark.covariance, Eigen::EigenvaluesOnly);
+double largestSigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 /// Each place of the query image was measured once and gives one match, with depth if there is such a one, by the most
 /// distinctive feature: matches with several references, and features that differ in orientation alone, share its
-/// error. So does a landmark, seen through whatever reference.
-std::vector<Candidate> withoutRepetition(std::vector<Candidate> candidates, const FeatureSet& query) {
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tuple(!a.has_reliable_depth, a.ratio) < std::tuple(!b.has_reliable_depth, b.ratio);
+/// error. So does a landmark, seen through whatever reference. Dense matches fill what is left of the image, one a cell
+/// of their grid, and bring depth to cells without.
+std::vector<Candidate> withoutRepetition(std::vector<Candidate> candidates) {
+  std::ranges::stable_sort(candidates, {}, [](const Candidate& candidate) {
+    return std::tuple(candidate.is_dense, !candidate.match.point, candidate.ratio);
   });
   std::set<int> used_landmarks;
-  std::set<std::pair<float, float>> used_places;
+  std::set<std::pair<double, double>> used_places;
+  std::set<std::pair<int, int>> cells, cells_with_depth;
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    const Eigen::Vector2f& pixel = query.pixels[static_cast<std::size_t>(candidate.query_feature)];
+    const Eigen::Vector2d& pixel = candidate.match.query_pixel;
+    const Eigen::Vector2i cell = (pixel / dense_grid_step).array().floor().cast<int>();
     const std::pair place(pixel.x(), pixel.y());
-    if (used_places.contains(place)) return true;
+    const std::pair cell_place(cell.x(), cell.y());
+    if (candidate.is_dense ? (candidate.match.point ? cells_with_depth : cells).contains(cell_place)
+                           : used_places.contains(place))
+      return true;
     if (candidate.landmark >= 0 && !used_landmarks.insert(candidate.landmark).second) return true;
     used_places.insert(place);
+    cells.insert(cell_place);
+    if (candidate.match.point) cells_with_depth.insert(cell_place);
     return false;
   });
   return candidates;
 }
 
+/// Nothing far outside the calibrated field, where the distortion has no inverse.
+std::optional<Eigen::Vector2d> idealPixel(const CameraCalibration& calibration, const Eigen::Vector2f& distorted) {
+  const Eigen::Vector2d ideal = calibration.undistort(distorted.cast<double>());
+  if (!((calibration.distort(ideal) - distorted.cast<double>()).norm() < 0.1)) return std::nullopt;
+  return ideal;
+}
+
 }  // namespace
+
+std::string_view nameOf(MatchSetting setting) {
+  return setting == MatchSetting::scsd ? "scsd" : setting == MatchSetting::dcsd ? "dcsd" : "dcdd";
+}
+
+MatchSetting matchSettingFromName(std::string_view name) {
+  for (const MatchSetting setting : {MatchSetting::scsd, MatchSetting::dcsd, MatchSetting::dcdd})
+    if (name == nameOf(setting)) return setting;
+  throw std::invalid_argument("setting is \"" + std::string(name) + "\", not scsd, dcsd or dcdd");
+}
 
 void RelocalizerOptions::check() const {
   matching.check();
@@ -109,44 +136,72 @@ struct Relocalizer::State {
     return static_cast<int>(known - result.keyframes.begin());
   }
 
-  bool hasReliableDepth(int landmark, const ReferenceCamera& reference) const {
-    if (landmark < 0 || !is_certain[static_cast<std::size_t>(landmark)]) return false;
-    const Eigen::Vector3d& point_in_map = map->landmarks[static_cast<std::size_t>(landmark)].point_in_map;
-    return (point_in_map - reference.map_from_camera.translation()).norm() <= options.reliable_depth;
+  bool isNear(const Eigen::Vector3d& point_in_map, const Keyframe& reference) const {
+    return (point_in_map - map->referenceCamera(reference).map_from_camera.translation()).norm() <=
+           options.reliable_depth;
   }
 
-  /// All matches of one query image with the retrieved keyframes.
-  std::vector<Candidate> candidates(const FeatureSet& query, const std::vector<RetrievedPlace>& places,
-                                    RelocalizationResult& result) const {
-    std::vector<Candidate> all;
-    for (const RetrievedPlace& place : places) {
-      const int camera = referenceCamera(place.index, result);
-      const Keyframe& reference = keyframe(place.index);
-      for (const FeatureMatch& match : matchFeatures(query, reference.features, options.matching)) {
-        const int landmark = reference.landmark_of_feature[static_cast<std::size_t>(match.reference)];
-        const auto& reference_camera = result.problem.reference_cameras[static_cast<std::size_t>(camera)];
-        all.push_back({match.query, camera, match.reference, match.ratio, landmark,
-                       hasReliableDepth(landmark, reference_camera)});
-      }
+  /// With the landmark as point if its depth is reliable.
+  Candidate candidate(Match match, const Keyframe& reference, int landmark, bool is_dense, float ratio) const {
+    if (landmark >= 0 && is_certain[static_cast<std::size_t>(landmark)]) {
+      const Landmark& seen = map->landmarks[static_cast<std::size_t>(landmark)];
+      if (isNear(seen.point_in_map, reference)) match.point = MapPoint{seen.point_in_map, seen.covariance};
     }
-    return all;
+    return {std::move(match), is_dense, ratio, landmark};
   }
 
-  Match toMatch(const Candidate& candidate, const FeatureSet& query, int query_camera,
-                const RelocalizationResult& result) const {
-    const Keyframe& reference = keyframe(result.keyframes[static_cast<std::size_t>(candidate.reference_camera)]);
-    Match match;
-    match.query_camera = query_camera;
-    match.query_pixel = query.pixels[static_cast<std::size_t>(candidate.query_feature)].cast<double>();
-    match.reference_camera = candidate.reference_camera;
-    match.reference_pixel =
-        reference.features.pixels[static_cast<std::size_t>(candidate.reference_feature)].cast<double>();
-    match.inlier_odds = inlierOdds(candidate.ratio);
-    if (candidate.has_reliable_depth) {
-      const Landmark& landmark = map->landmarks[static_cast<std::size_t>(candidate.landmark)];
-      match.point = MapPoint{landmark.point_in_map, landmark.covariance};
+  void addSparse(const FeatureSet& query, const Keyframe& reference, Match match, std::vector<Candidate>& all) const {
+    const FeatureSet& features = reference.features;
+    for (const FeatureMatch& found : matchFeatures(query, features, options.matching)) {
+      match.query_pixel = query.pixels[static_cast<std::size_t>(found.query)].cast<double>();
+      match.reference_pixel = features.pixels[static_cast<std::size_t>(found.reference)].cast<double>();
+      const int landmark = reference.landmark_of_feature[static_cast<std::size_t>(found.reference)];
+      match.inlier_odds = inlierOdds(found.ratio);
+      all.push_back(candidate(match, reference, landmark, false, found.ratio));
     }
-    return match;
+  }
+
+  /// Points on a grid and, for their depth, landmarks.
+  void addDense(const DenseMatcher& matcher, const QueryImage& query, const Keyframe& reference, Match match,
+                std::vector<Candidate>& all) const {
+    const MapCamera& camera = map->cameras[static_cast<std::size_t>(reference.camera)];
+    const PinholeCamera& pinhole = camera.calibration.pinhole;
+    const Image image = decompressImage(reference.dense.image);
+    if (image.width != pinhole.width || image.height != pinhole.height)
+      throw std::runtime_error("the map's image at " + std::to_string(reference.time) + " s has another size");
+    std::vector<Eigen::Vector2f> points = denseGrid(image.width, image.height, camera.mask_rows_from_top);
+    std::vector<int> landmarks(points.size(), -1);
+    for (std::size_t i = 0; i < reference.landmark_of_feature.size(); ++i) {
+      if (reference.landmark_of_feature[i] < 0) continue;
+      points.push_back(camera.calibration.distort(reference.features.pixels[i].cast<double>()).cast<float>());
+      landmarks.push_back(reference.landmark_of_feature[i]);
+    }
+    for (const DenseMatch& found : matcher.match(image.view(), points)) {
+      const auto query_pixel = idealPixel(query.calibration, found.query_pixel);
+      const auto reference_pixel = idealPixel(camera.calibration, points[static_cast<std::size_t>(found.point)]);
+      if (!query_pixel || !reference_pixel || isMasked(query, found.query_pixel)) continue;
+      match.query_pixel = *query_pixel;
+      match.reference_pixel = *reference_pixel;
+      all.push_back(candidate(match, reference, landmarks[static_cast<std::size_t>(found.point)], true, 1));
+    }
+  }
+
+  static bool isMasked(const QueryImage& query, const Eigen::Vector2f& pixel) {
+    const Eigen::Vector2i at = pixel.array().round().cast<int>();
+    if (at.y() < query.mask_rows_from_top) return true;
+    const ImageView& mask = query.mask;
+    return !mask.empty() && at.x() >= 0 && at.x() < mask.width && at.y() < mask.height &&
+           mask.pixels[static_cast<std::size_t>(at.y()) * mask.row_bytes + static_cast<std::size_t>(at.x())] >= 128;
+  }
+
+  void addDepth(const Keyframe& reference, std::span<Candidate> candidates) const {
+    const ReferenceDepth depth(*map, reference, is_certain);
+    for (Candidate& candidate : candidates) {
+      if (candidate.match.point) continue;
+      const auto point = depth.at(candidate.match.reference_pixel);
+      if (point && isNear(point->point_in_map, reference) && largestSigma(point->covariance) <= options.max_point_sigma)
+        candidate.match.point = point;
+    }
   }
 
   void addImage(const QueryImage& image, RelocalizationResult& result) const {
@@ -159,9 +214,21 @@ struct Relocalizer::State {
     const std::vector<RetrievedPlace> places =
         retrieve(map->place_descriptors, map->vocabulary.describe(query), options.retrieved);
     stopwatch.addTo(result.times.retrieval);
-    std::vector<Candidate> all = candidates(query, places, result);
-    for (const Candidate& candidate : withoutRepetition(std::move(all), query))
-      result.problem.matches.push_back(toMatch(candidate, query, query_camera, result));
+    const auto dense_matcher =
+        options.setting == MatchSetting::scsd ? nullptr : gridMatcher(image.image, image.mask_rows_from_top);
+    std::vector<Candidate> all;
+    for (const RetrievedPlace& place : places) {
+      const Keyframe& reference = keyframe(place.index);
+      Match match;
+      match.query_camera = query_camera;
+      match.reference_camera = referenceCamera(place.index, result);
+      const std::size_t first = all.size();
+      addSparse(query, reference, match, all);
+      if (dense_matcher) addDense(*dense_matcher, image, reference, match, all);
+      if (options.setting == MatchSetting::dcdd) addDepth(reference, std::span(all).subspan(first));
+    }
+    for (Candidate& candidate : withoutRepetition(std::move(all)))
+      result.problem.matches.push_back(std::move(candidate.match));
     stopwatch.addTo(result.times.matching);
   }
 };
@@ -172,10 +239,13 @@ Relocalizer::Relocalizer(std::shared_ptr<const KeyframeMap> map, const Relocaliz
         if (map == nullptr || map->keyframes.empty() || map->vocabulary.empty())
           throw std::invalid_argument("the map is empty");
         map->check();
+        if (options.setting != MatchSetting::scsd && !map->isDense())
+          throw std::invalid_argument("the map is not dense, as " + std::string(nameOf(options.setting)) +
+                                      " needs it: make it with --dense");
         return new State{map, options, FeatureExtractor(map->feature_options), {}};
       }()) {
   for (const Landmark& landmark : map->landmarks)
-    state_->is_certain.push_back(largestSigma(landmark) <= options.max_point_sigma);
+    state_->is_certain.push_back(largestSigma(landmark.covariance) <= options.max_point_sigma);
 }
 
 Relocalizer::~Relocalizer() = default;

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -90,8 +91,10 @@ Image readImage(const std::filesystem::path& file) {
 }
 
 std::vector<uint8_t> compressImage(const ImageView& image) {
-  if (image.empty() || image.channels != 1) throw std::invalid_argument("no grey image to compress");
-  const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<uint8_t*>(image.pixels), image.row_bytes);
+  if (image.empty()) throw std::invalid_argument("no image to compress");
+  cv::Mat pixels(image.height, image.width, image.channels == 1 ? CV_8UC1 : CV_8UC3,
+                 const_cast<uint8_t*>(image.pixels), image.row_bytes);
+  if (image.channels != 1) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2GRAY);
   std::vector<uint8_t> bytes;
   cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
   return bytes;

@@ -8,6 +8,7 @@
 #include "vmcl/geometry/camera.h"
 #include "vmcl/geometry/planar_pose.h"
 #include "vmcl/geometry/pose_problem.h"
+#include "vmcl/mapping/dense_view.h"
 #include "vmcl/vision/features.h"
 #include "vmcl/vision/place_recognition.h"
 
@@ -45,6 +46,7 @@ struct Keyframe {
   Rigid3 map_from_robot = Rigid3::Identity();
   FeatureSet features;
   std::vector<int> landmark_of_feature;  ///< index into KeyframeMap::landmarks, -1 where none; one per feature
+  DenseView dense{};
 };
 
 /// What is kept of the places where the robot has been. Plain data; MapBuilder makes it, map_file.h stores it.
@@ -58,6 +60,9 @@ struct KeyframeMap {
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
   VladVocabulary vocabulary;
   Eigen::MatrixXf place_descriptors;  ///< one column a keyframe
+
+  /// Whether all keyframes can be matched densely.
+  bool isDense() const;
 
   /// Throws std::invalid_argument naming the broken entry: indices out of range, sizes that disagree or exceed their
   /// bounds, values that are not finite.

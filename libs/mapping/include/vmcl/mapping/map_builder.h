@@ -24,6 +24,7 @@ struct MapBuilderOptions {
   double sigma_focal = 0.03;        ///< prior of the given focal lengths, relative; 0: exact
   double sigma_radial = 0.1;        ///< prior of the given radial distortion k1 and k2; 0: exact
   int words = 64;                   ///< vocabulary of place recognition
+  bool dense = false;               ///< keep the images, so that queries can be matched all over them
   uint64_t seed = 1;
 
   /// Throws std::invalid_argument naming the bad key.

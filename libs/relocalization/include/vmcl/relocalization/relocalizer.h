@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "vmcl/estimation/estimator.h"
@@ -12,8 +13,20 @@
 
 namespace vmcl {
 
+/// How many matches an image has with a keyframe and how many of these have depth (Jiao et al. 2020, section IV-C).
+enum class MatchSetting {
+  scsd,  ///< features, depth at landmarks
+  dcsd,  ///< points anywhere besides, depth at landmarks: needs a dense map
+  dcdd,  ///< the same with depth as measured, or as interpolated between landmarks where the map has none measured
+};
+
+/// "scsd", "dcsd" or "dcdd", and back. Throws std::invalid_argument naming any other word.
+std::string_view nameOf(MatchSetting setting);
+MatchSetting matchSettingFromName(std::string_view name);
+
 struct RelocalizerOptions {
   MatchingOptions matching{};
+  MatchSetting setting = MatchSetting::scsd;
   int retrieved = 3;             ///< reference keyframes per image (the paper's 3)
   double reliable_depth = 10;    ///< landmarks farther from the reference than this (m) give 2D-2D matches
   double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
@@ -55,7 +68,8 @@ PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, co
 /// Finds the robot in the map from its images alone: features, place recognition, matching, estimation. Thread safe.
 class Relocalizer {
  public:
-  /// Throws std::invalid_argument for bad options or an empty map.
+  /// Throws std::invalid_argument for bad options, an empty map, or one that is not dense though the setting is;
+  /// std::runtime_error naming the map's network of features when it cannot be used.
   Relocalizer(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options);
   ~Relocalizer();
 

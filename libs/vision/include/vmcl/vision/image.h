@@ -32,7 +32,7 @@ struct Image {
 /// Throws std::runtime_error naming the file: missing, no such image, cut off, or more than 100 megapixels.
 Image readImage(const std::filesystem::path& file);
 
-/// A grey image as JPEG of high quality, and back. compressImage throws std::invalid_argument for an empty image,
+/// An image as grey JPEG of high quality, and back. compressImage throws std::invalid_argument for an empty image,
 /// decompressImage std::runtime_error for bytes that are none.
 std::vector<uint8_t> compressImage(const ImageView& image);
 Image decompressImage(const std::vector<uint8_t>& bytes);
