@@ -7,8 +7,9 @@
 namespace vmcl {
 
 /// How odometry errs, after the alphas of AMCL (Thrun et al. 2005, 5.4), but with variances that grow with the way and
-/// the turn themselves, so that they do not depend on how often odometry is read. Now and then a wheel slips: it counts
-/// way that the robot does not go, and a turn that it does not make.
+/// the turn themselves, so that they do not depend on how often odometry is read. Now and then a wheel slips: for a
+/// while it turns by half as much again as the robot goes, and the odometry counts way that the robot does not go, and
+/// a turn that it does not make.
 struct OdometryNoise {
   double alpha1 = 0.002;     ///< variance of the heading per turn (rad^2/rad)
   double alpha2 = 0.0005;    ///< variance of the heading per way (rad^2/m)
@@ -29,8 +30,12 @@ class WheelOdometry {
   PlanarPose read(const PlanarPose& map_from_robot);
 
  private:
+  PlanarPose slip(double way);
+
   OdometryNoise noise_;
   Random random_;
+  double slip_left_ = 0;  ///< that the wheel will count too much in the slip under way, m
+  int slip_side_ = 1;     ///< 1: it seems to turn left
   bool started_ = false;
   PlanarPose map_from_robot_;
   PlanarPose odom_from_robot_;
