@@ -15,6 +15,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "../relocalization/synthetic_room.h"
@@ -97,6 +98,23 @@ TEST_F(VisualKeyframeMapTest, AMatchCountsByItsWeight) {
   const VisualKeyframeMap map(options, content_), with_half(half, content_);
   const CObservationImage image = imageFrom(truth_);
   EXPECT_NEAR(logLikelihood(map, image, truth_), 2 * logLikelihood(with_half, image, truth_), 1e-9);
+}
+
+TEST_F(VisualKeyframeMapTest, KeptMatchesAreFoundAgain) {
+  const ScratchDirectory scratch;
+  VisualMapOptions options;
+  options.match_directory = (scratch.path() / "matches").string();
+  const CObservationImage image = imageFrom(truth_);
+  const double value = logLikelihood(VisualKeyframeMap(options, content_), image, truth_);
+  CObservationImage dark = image;  // of this time and camera, but with nothing in it
+  dark.image.filledRectangle(0, 0, static_cast<int>(dark.image.getWidth()), static_cast<int>(dark.image.getHeight()),
+                             mrpt::img::TColor(0, 0, 0));
+  const double of_dark = logLikelihood(VisualKeyframeMap({}, content_), dark, truth_);
+  EXPECT_NE(of_dark, value);
+  EXPECT_EQ(logLikelihood(VisualKeyframeMap(options, content_), dark, truth_), value);
+  for (const auto& file : std::filesystem::directory_iterator(options.match_directory))
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) - 8);
+  EXPECT_EQ(logLikelihood(VisualKeyframeMap(options, content_), dark, truth_), of_dark);
 }
 
 TEST_F(VisualKeyframeMapTest, OtherObservationsSayNothing) {

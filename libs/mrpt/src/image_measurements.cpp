@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "match_store.h"
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/query_image.h"
 
@@ -57,10 +58,16 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::C
 }
 
 void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const {
-  const auto camera = cameraObservation(observation);
-  if (!camera) return;
-  const QueryImage query = queryImage(*camera, relocalizer_.map());
-  measurement.problem = relocalizer_.match({&query, 1}).problem;
+  const MatchStore store(options_.match_directory);
+  if (auto known = store.find(observation)) {
+    measurement.problem = std::move(*known);
+  } else {
+    const auto camera = cameraObservation(observation);
+    if (!camera) return;
+    const QueryImage query = queryImage(*camera, relocalizer_.map());
+    measurement.problem = relocalizer_.match({&query, 1}).problem;
+    store.keep(observation, measurement.problem);
+  }
   if (measurement.problem.matches.empty()) return;
   LikelihoodOptions of_particles = options_.relocalizer.estimator.likelihood;
   of_particles.sigma_px = options_.particle_sigma_px;

@@ -67,6 +67,7 @@ void VisualMapOptions::read(const mrpt::config::CConfigFileBase& ini, const std:
   IniSection creation(ini, prefix + "_creationOpts");
   creation.read("map_file", map_file);
   creation.read("image_directory", image_directory);
+  creation.read("match_directory", match_directory);
   creation.allow({"enableSaveAs3DObject", "enableObservationLikelihood", "enableObservationInsertion"});
   creation.refuseUnknownKeys();
   IniSection likelihood(ini, prefix + "_likelihoodOpts");
@@ -86,6 +87,7 @@ void VisualMapOptions::read(const mrpt::config::CConfigFileBase& ini, const std:
 void VisualMapOptions::write(mrpt::config::CConfigFileBase& ini, const std::string& prefix) const {
   ini.write(prefix + "_creationOpts", "map_file", map_file);
   ini.write(prefix + "_creationOpts", "image_directory", image_directory);
+  ini.write(prefix + "_creationOpts", "match_directory", match_directory);
   visitLikelihoodOptions(
       *this, [&](const char* key, const auto& value) { ini.write(prefix + "_likelihoodOpts", key, textOf(value)); });
   visitInsertionOptions(

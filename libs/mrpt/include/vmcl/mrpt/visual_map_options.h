@@ -21,11 +21,13 @@ namespace vmcl {
 /// particle the likelihood of its neighbourhood: a few thousand particles lie centimetres apart, where an image tells
 /// millimetres.
 struct VisualMapOptions {
-  std::string map_file;            ///< [.._creationOpts] a .vmap; empty: the map is built from inserted images
-  std::string image_directory;     ///< [.._creationOpts] where a log's outside images lie, for stock programs, which do
-                                   ///< not look in <rawlog>_Images; sets MRPT's process-wide base directory of images
-  double particle_sigma_px = 8;    ///< [.._likelihoodOpts] pixel noise when particles are weighed
-  double match_weight = 0.04;      ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
+  std::string map_file;          ///< [.._creationOpts] a .vmap; empty: the map is built from inserted images
+  std::string image_directory;   ///< [.._creationOpts] where a log's outside images lie, for stock programs, which do
+                                 ///< not look in <rawlog>_Images; sets MRPT's process-wide base directory of images
+  std::string match_directory;   ///< [.._creationOpts] keeps the matches of images, for other runs on the same log and
+                                 ///< map, with the same options; empty: none
+  double particle_sigma_px = 4;  ///< [.._likelihoodOpts] pixel noise when particles are weighed
+  double match_weight = 0.04;    ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
                                    ///< sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations, max_modes
   std::string features = "sift";   ///< [.._insertOpts] sift or orb
