@@ -45,6 +45,14 @@ TEST_F(HealthTest, IsDegradedWhenNothingConfirmsForASecond) {
   EXPECT_EQ(see(Verdict::agrees), tracking);
 }
 
+TEST_F(HealthTest, StandingStillNeedsNoConfirmation) {
+  see(Verdict::agrees);
+  monitor_.rest(30);
+  time_ += 30;
+  EXPECT_EQ(see(Verdict::silent), tracking);
+  EXPECT_NEAR(monitor_.health().unconfirmed_for, 0.1, 1e-9);
+}
+
 TEST_F(HealthTest, IsDegradedByOneContradictionLostByThree) {
   see(Verdict::agrees);
   EXPECT_EQ(see(Verdict::contradicts), degraded);

@@ -12,8 +12,9 @@ TEST_F(Ini, ValuesCanBeChanged) {
 }
 
 TEST_F(Ini, AChangeThatMeansNothingIsRefused) {
-  for (const char* change : {"particles_count=7", "LocalizationExperiment.particles_count", "", "=",
-                             ".=", "LocalizationExperiment.particles_cuont=7", "PF_option.BETA=1", "vmcl.min_sahre=1"})
+  for (const char* change :
+       {"particles_count=7", "LocalizationExperiment.particles_count", "", "=",
+        ".=", "LocalizationExperiment.particles_cuont=7", "PF_option.BETA=1", "vmcl.min_sahre=1", "amcl.alpha1=0.1"})
     EXPECT_THROW(loadLocalizationConfig(write(), {}, {}, {{change}, std::nullopt}), std::runtime_error) << change;
 }
 

@@ -32,6 +32,10 @@ HealthMonitor::HealthMonitor(const HealthOptions& options) : options_(options) {
 
 void HealthMonitor::restart() { *this = HealthMonitor(options_); }
 
+void HealthMonitor::rest(double duration) {
+  if (confirmed_at_ && duration > 0) *confirmed_at_ += duration;
+}
+
 const Health& HealthMonitor::update(const UpdateEvidence& evidence) {
   tested_ = tested_ || evidence.testable > 0;
   const bool agreed = evidence.agreeing > 0 && evidence.contradicting == 0;

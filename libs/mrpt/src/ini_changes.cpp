@@ -25,6 +25,8 @@ void changeValue(CConfigFileMemory& ini, const std::string& change) {
   if (equals == std::string::npos || dot >= equals)
     throw std::invalid_argument("change '" + change + "' is not section.key=value");
   const std::string section = change.substr(0, dot), key = change.substr(dot + 1, equals - dot - 1);
+  if (section == "amcl" && !ini.sectionExists(section))
+    throw std::invalid_argument("change '" + change + "': there is no [amcl], which would bring in another filter");
   if (!isOwnSection(section) && !ini.keyExists(section, key))
     throw std::invalid_argument("change '" + change + "': [" + section + "] has no " + key);
   ini.write(section, key, change.substr(equals + 1));

@@ -73,6 +73,7 @@ void Localizer::setMap(CMultiMetricMap::Ptr maps, const std::optional<PoseBox>& 
 void Localizer::restart() {
   monitor_.restart();
   pending_ = since_update_ = {};
+  noise_is_pending_ = false;
   steady_frames_ = 0;
   expected_.reset();
   updated_at_.reset();
@@ -109,13 +110,12 @@ std::vector<PoseCluster> Localizer::clusters() const {
   return all;
 }
 
-std::optional<LocalizationFrame> Localizer::processNew(const CActionCollection* action,
-                                                       const CSensoryFrame& observations) {
-  if (filter_.m_particles.empty()) return std::nullopt;
-  const bool due = advance(isUsable(action) ? action : nullptr);
+std::optional<LocalizationFrame> Localizer::processNew(const CSensoryFrame& observations) {
   if (observations.size() == 0) return std::nullopt;
   const double time = timeOf(observations);
-  if (!due && !odometry_.hasStopped(time)) {
+  const bool has_stood = std::exchange(has_stood_, true);
+  if (!isDue() && !odometry_.hasStopped(time)) {
+    if (has_stood && seen_at_) monitor_.rest(time - *seen_at_);
     seen_at_ = time;
     return std::nullopt;
   }
@@ -135,20 +135,34 @@ double Localizer::timeOf(const CSensoryFrame& frame) const {
   return stamp == INVALID_TIMESTAMP ? updated_at_.value_or(0) : mrpt::Clock::toDouble(stamp);
 }
 
-/// Moves the particles, or, for a motion model whose noise depends on the whole way, remembers the movement until the
-/// next update. Returns whether one is due.
-bool Localizer::advance(const CActionCollection* action) {
-  if (!updated_at_) return true;  // the start is where the first observation is taken
-  if (const auto movement = movementOf(action)) {
-    const PlanarPose mean = toPlanarPose(movement->mean);
-    since_update_ = since_update_ * mean;
-    if (expected_) expected_ = *expected_ * mean;
-    if (options_.monte_carlo.motion_model)
-      pending_ = pending_ * mean;
-    else
-      filter_.update(action, nullptr);
-  }
-  return update_requested_ || std::abs(since_update_.x) > options_.update_min_d ||
+/// The particles move at the next update, with noise that depends on the whole way.
+void Localizer::advance(const PlanarPose& movement) {
+  if (!updated_at_) return;  // the start is where the first observation is taken
+  noteMovement(movement);
+  pending_ = pending_ * movement;
+  noise_is_pending_ = true;
+}
+
+/// An action brings its own noise, unless the options have a motion model.
+void Localizer::advance(const CActionCollection& action) {
+  const auto movement = movementOf(&action);
+  if (!updated_at_ || !movement) return;
+  const PlanarPose mean = toPlanarPose(movement->mean);
+  if (options_.monte_carlo.motion_model) return advance(mean);
+  noteMovement(mean);
+  filter_.update(&action, nullptr);
+}
+
+void Localizer::noteMovement(const PlanarPose& movement) {
+  since_update_ = since_update_ * movement;
+  if (expected_) expected_ = *expected_ * movement;
+  constexpr double still_position = 1e-3, still_heading = 0.1 * degree;
+  has_stood_ =
+      has_stood_ && std::hypot(movement.x, movement.y) < still_position && std::abs(movement.phi) < still_heading;
+}
+
+bool Localizer::isDue() const {
+  return !updated_at_ || update_requested_ || std::abs(since_update_.x) > options_.update_min_d ||
          std::abs(since_update_.y) > options_.update_min_d || std::abs(since_update_.phi) > options_.update_min_a ||
          (options_.update_min_d == 0 && options_.update_min_a == 0);
 }
@@ -160,7 +174,7 @@ std::optional<LocalizationFrame> Localizer::update(const CSensoryFrame& observat
   const double time = timeOf(used.frame);
   allowForStoppedOdometry(time);
   updated_at_ = time;
-  if (options_.monte_carlo.motion_model) {
+  if (std::exchange(noise_is_pending_, false)) {
     const CActionCollection moved = actionOf(std::exchange(pending_, {}));
     filter_.update(&moved, nullptr);
   }

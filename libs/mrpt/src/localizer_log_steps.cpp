@@ -17,16 +17,30 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
+namespace {
+
+constexpr const char* bad_movement = "a movement without a pose, not finite or of more than 1000 m";
+
+}  // namespace
+
 std::optional<LocalizationFrame> Localizer::process(const CActionCollection* action,
                                                     const CSensoryFrame& observations) try {
-  return processNew(action, newOnes(observations));
+  const CSensoryFrame ones = newOnes(observations);
+  if (filter_.m_particles.empty()) return std::nullopt;
+  if (action && isUsable(*action)) advance(*action);
+  return processNew(ones);
 } catch (const std::exception& error) {
   return leaveOut(error);
 }
 
 std::optional<LocalizationFrame> Localizer::process(const PlanarPose& movement, const CSensoryFrame& observations) try {
-  const CActionCollection action = actionOf(movement);
-  return process(&action, observations);
+  const CSensoryFrame ones = newOnes(observations);
+  if (filter_.m_particles.empty()) return std::nullopt;
+  if (isPlausibleMovement(movement))
+    advance(movement);
+  else
+    problems_.push_back(bad_movement);
+  return processNew(ones);
 } catch (const std::exception& error) {
   return leaveOut(error);
 }
@@ -49,19 +63,19 @@ std::optional<LocalizationFrame> Localizer::step(const CActionCollection::Ptr& a
   CSensoryFrame single;
   single.insert(observation);
   const CSensoryFrame one = newOnes(single);
-  if (one.size() == 0) return std::nullopt;
-  const CActionCollection moved = actionOf(odometry_.takeMovement());
-  return processNew(&moved, one);
+  if (one.size() == 0 || filter_.m_particles.empty()) return std::nullopt;
+  advance(odometry_.takeMovement());
+  return processNew(one);
 } catch (const std::exception& error) {
   return leaveOut(error);
 }
 
-bool Localizer::isUsable(const CActionCollection* action) {
-  const auto movement = movementOf(action);
-  const bool boundless = !movement && action && action->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
+bool Localizer::isUsable(const CActionCollection& action) {
+  const auto movement = movementOf(&action);
+  const bool boundless = !movement && action.getActionByClass<mrpt::obs::CActionRobotMovement2D>();
   if (!boundless && !movement) return true;
   if (movement && isPlausibleMovement(toPlanarPose(movement->mean)) && movement->cov.asEigen().allFinite()) return true;
-  problems_.push_back("a movement without a pose, not finite or of more than 1000 m");
+  problems_.push_back(bad_movement);
   return false;
 }
 
@@ -85,8 +99,7 @@ std::optional<LocalizationFrame> Localizer::addOdometry(const mrpt::obs::CObserv
   const double time = mrpt::Clock::toDouble(reading.timestamp);
   if (problem.empty()) seen_at_ = std::min(*seen_at_, time);  // later only when a clock was set back
   if (!noteSilence(time)) return std::nullopt;
-  const CActionCollection moved = actionOf(odometry_.takeMovement());
-  advance(&moved);
+  advance(odometry_.takeMovement());
   return report(time, dominantCluster(filter_));
 }
 
@@ -98,7 +111,8 @@ void Localizer::allowForStoppedOdometry(double time) {
   if (stopped && !odometry_stopped_) problems_.push_back("the odometry has stopped");
   odometry_stopped_ = stopped;
   if (!stopped || !updated_at_) return;
-  const double elapsed = std::clamp(time - *updated_at_, 0.0, longest);
+  const double known_until = std::max(*updated_at_, odometry_.lastTime().value_or(*updated_at_));
+  const double elapsed = std::clamp(time - known_until, 0.0, longest);
   filter_.diffuse(speed * elapsed, turn_rate * elapsed);
 }
 

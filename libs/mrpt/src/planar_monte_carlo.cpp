@@ -136,7 +136,7 @@ void PlanarMonteCarlo::correct(const mrpt::obs::CSensoryFrame& frame, std::span<
   drawn_anew_.assign(m_particles.size(), false);
   recover();
   inject(modes);
-  weigh(frame);
+  weigh(frame, modes);
   resample();
 }
 
@@ -218,7 +218,7 @@ void PlanarMonteCarlo::allowForAliasing(std::span<double> log_likelihoods) const
 /// By the particles that the prediction brought: those drawn anew would make the mean fall, and it more of them.
 void PlanarMonteCarlo::judge(RecoveryAverages& recovery, std::span<const double> log_likelihoods, double factor) const {
   std::vector<double> log_weights, log_products;
-  for (std::size_t i = 0; i < log_likelihoods.size(); ++i) {
+  for (std::size_t i = 0; i < m_particles.size(); ++i) {
     if (drawn_anew_[i]) continue;
     log_weights.push_back(m_particles[i].log_w);
     log_products.push_back(m_particles[i].log_w + factor * log_likelihoods[i]);
@@ -226,14 +226,12 @@ void PlanarMonteCarlo::judge(RecoveryAverages& recovery, std::span<const double>
   if (!log_weights.empty()) recovery.add(logSumExp(log_products) - logSumExp(log_weights));
 }
 
-void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
+void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const PoseMode> modes) {
+  const std::size_t size = m_particles.size();
   std::vector<PlanarPose> poses;
-  std::vector<mrpt::poses::CPose3D> mrpt_poses;
-  for (const auto& particle : m_particles) {
-    poses.push_back(planarPose(particle.d));
-    mrpt_poses.emplace_back(mrpt::math::TPose3D(particle.d));
-  }
-  std::vector<double> of_images(poses.size()), of_others(poses.size());
+  for (const auto& particle : m_particles) poses.push_back(planarPose(particle.d));
+  for (const PoseMode& mode : modes) poses.push_back(mode.robot_in_map);
+  std::vector<double> of_images(poses.size()), of_others(size);
   double matches = 0;
   bool others = false;
   for (const auto& observation : frame)
@@ -244,17 +242,21 @@ void PlanarMonteCarlo::weigh(const mrpt::obs::CSensoryFrame& frame) {
         continue;
       }
       others = true;
-      for (std::size_t i = 0; i < poses.size(); ++i)
-        of_others[i] += map->computeObservationLikelihood(*observation, mrpt_poses[i]);
+      for (std::size_t i = 0; i < size; ++i)
+        of_others[i] += map->computeObservationLikelihood(*observation,
+                                                          mrpt::poses::CPose3D(mrpt::math::TPose3D(m_particles[i].d)));
     }
   if (!allFinite(of_images) || !allFinite(of_others))
     throw std::runtime_error("a map gave a likelihood that is not finite");
   if (others) judge(other_recovery_, of_others, filter_options_.powFactor);
   if (matches > 0) {
+    const double best = *std::max_element(of_images.begin(), of_images.end());
+    of_images.resize(size);
+    for (double& value : of_images) value -= best;
     judge(image_recovery_, of_images, 1 / matches);
     allowForAliasing(of_images);
   }
-  for (std::size_t i = 0; i < poses.size(); ++i)
+  for (std::size_t i = 0; i < size; ++i)
     m_particles[i].log_w += (of_others[i] + of_images[i]) * filter_options_.powFactor;
   normalize();
 }

@@ -71,6 +71,9 @@ class HealthMonitor {
   /// They were those of another map.
   void forgetContradictions() { health_.contradictions = 0; }
 
+  /// The robot has stood still for so long (s): there was nothing to confirm.
+  void rest(double duration);
+
   const Health& update(const UpdateEvidence& evidence);
   const Health& health() const { return health_; }
 

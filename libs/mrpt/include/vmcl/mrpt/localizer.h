@@ -98,12 +98,14 @@ class Localizer {
 
   void restart();
   mrpt::obs::CSensoryFrame newOnes(const mrpt::obs::CSensoryFrame& frame);
-  std::optional<LocalizationFrame> processNew(const mrpt::obs::CActionCollection* action,
-                                              const mrpt::obs::CSensoryFrame& observations);
-  bool advance(const mrpt::obs::CActionCollection* action);
+  std::optional<LocalizationFrame> processNew(const mrpt::obs::CSensoryFrame& observations);
+  void advance(const PlanarPose& movement);
+  void advance(const mrpt::obs::CActionCollection& action);
+  void noteMovement(const PlanarPose& movement);
+  bool isDue() const;
   std::optional<LocalizationFrame> update(const mrpt::obs::CSensoryFrame& observations);
   Used usable(const mrpt::obs::CSensoryFrame& frame);
-  bool isUsable(const mrpt::obs::CActionCollection* action);
+  bool isUsable(const mrpt::obs::CActionCollection& action);
   std::optional<LocalizationFrame> addOdometry(const mrpt::obs::CObservationOdometry& reading);
   mrpt::obs::CActionCollection actionOf(const PlanarPose& movement) const;
   void allowForStoppedOdometry(double time);
@@ -122,9 +124,11 @@ class Localizer {
   HealthMonitor monitor_;
   OdometryTrack odometry_;
   ObservationOrder order_;
-  Random random_;            ///< of the poses that observations are judged by
-  PlanarPose pending_;       ///< movement that the particles have not made yet
-  PlanarPose since_update_;  ///< movement since an observation was used
+  Random random_;                  ///< of the poses that observations are judged by
+  PlanarPose pending_;             ///< movement that the particles have not made yet
+  bool noise_is_pending_ = false;  ///< nor been spread by its noise
+  bool has_stood_ = false;         ///< since the last observation
+  PlanarPose since_update_;        ///< movement since an observation was used
   bool update_requested_ = false;
   std::vector<std::string> problems_;
   int steps_to_skip_ = 0;

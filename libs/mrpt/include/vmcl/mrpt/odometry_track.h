@@ -26,6 +26,9 @@ class OdometryTrack {
   /// The next reading is no movement, as when the robot has been carried off.
   void interrupt() { reading_.reset(); }
 
+  /// Of the last reading, s; nothing before the first and after an interruption.
+  std::optional<double> lastTime() const { return reading_ ? std::optional(reading_->time) : std::nullopt; }
+
   /// Whether there have been readings, the last over 0.5 s before this time (s).
   bool hasStopped(double time) const {
     constexpr double patience = 0.5;

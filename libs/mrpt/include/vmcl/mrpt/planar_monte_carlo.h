@@ -39,7 +39,8 @@ struct PlanarMonteCarloOptions {
 
 /// Monte Carlo localization on the plane: MRPT's filter (motion models, KLD-adaptive sample size, metric maps) with
 /// - AMCL's recovery from w_slow and w_fast, kept apart for images and for all other sensors. An image's likelihood is
-///   there the geometric mean over its matches, whose number differs from image to image,
+///   there the geometric mean over its matches, whose number differs from image to image, and over that of the pose
+///   that explains it best: an image that tells of no place, in front of a blank wall, tells nothing of being lost,
 /// - particles injected where an image says the robot may be,
 /// - weights that are equal after every resampling,
 /// - one seed for everything random.
@@ -99,7 +100,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   void inject(std::span<const PoseMode> modes);
   void recover();
   void forgetLikelihoods();
-  void weigh(const mrpt::obs::CSensoryFrame& frame);
+  void weigh(const mrpt::obs::CSensoryFrame& frame, std::span<const PoseMode> modes);
   void judge(RecoveryAverages& recovery, std::span<const double> log_likelihoods, double factor) const;
   PoseDensity density() const;
   void allowForAliasing(std::span<double> log_likelihoods) const;
