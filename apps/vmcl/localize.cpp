@@ -27,15 +27,36 @@ struct Request {
   std::string start;
   std::filesystem::path initial_pose;
   std::vector<double> kidnapping;  ///< at, skip; or empty
+  double skipped = 0;
   uint64_t seed = 1;
   int threads = 1;
   bool tables_only = false;
 };
 
+/// Made before the work, so that a bad place is told at once; taken back when nothing was written.
+class OutputDirectory {
+ public:
+  explicit OutputDirectory(std::filesystem::path directory) {
+    if (directory.empty()) return;
+    directory = std::filesystem::absolute(directory);
+    for (auto part = directory; !std::filesystem::exists(part); part = part.parent_path()) made_.push_back(part);
+    std::filesystem::create_directories(directory);
+  }
+  ~OutputDirectory() {
+    std::error_code not_empty;
+    for (const auto& part : made_) std::filesystem::remove(part, not_empty);
+  }
+  OutputDirectory(const OutputDirectory&) = delete;
+  OutputDirectory& operator=(const OutputDirectory&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< innermost first
+};
+
 /// The robot stands about where it truly is when the log begins, as when a user says where.
 void startNearTruth(const Trajectory& ground_truth, LocalizationConfig& config, Replay& replay) {
   constexpr double reach = 0.2, turn = 10 * degree;
-  replay.begin = firstCoveredTime(replay.rawlog, ground_truth);
+  replay.begin = firstCoveredTime(replay.rawlog, ground_truth, replay.skipped);
   const PlanarPose pose = planarPart(*ground_truth.at(replay.begin));
   config.start = {pose.x - reach, pose.x + reach, pose.y - reach, pose.y + reach, pose.phi - turn, pose.phi + turn};
   config.start_in_free_space = false;
@@ -75,7 +96,6 @@ void printSummary(const LocalizationRun& run) {
 
 void writeAll(const std::filesystem::path& directory, bool tables_only, const LocalizationRun& run,
               const Localizer& localizer) {
-  std::filesystem::create_directories(directory);
   writeTrajectory(directory / "trajectory.tum", run.frames);
   writeFrames(directory / "frames.csv", run.frames);
   writeTiming(directory / "timing.csv", run.frames);
@@ -104,9 +124,12 @@ int localize(const Request& request) {
   if (!request.ground_truth.empty()) run.ground_truth = readTumTrajectory(request.ground_truth);
   Replay plan;
   plan.rawlog = config.rawlog_file;
+  plan.skipped = request.skipped;
   if (!request.kidnapping.empty()) plan.kidnapping = {request.kidnapping[0], request.kidnapping[1]};
   if (request.start == "given") startNearTruth(*run.ground_truth, config, plan);
   Localizer localizer(config, loadMaps(config));
+  const OutputDirectory out(request.out);
+  std::cout << "localizing " << config.rawlog_file.string() << std::endl;
   ProblemReport problems = replay(plan, localizer, run);
   if (run.frames.empty())
     throw std::runtime_error(problems.empty()
@@ -150,6 +173,8 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--initial-pose", request->initial_pose,
                    "Start about the pose in this file, as the pose.yaml of an earlier run: where that ended")
       ->excludes("--start");
+  verb->add_option("--skip", request->skipped, "Leave out the log's first so many s: start later on the way")
+      ->check(CLI::NonNegativeNumber);
   verb->add_option(
           "--kidnap", request->kidnapping,
           "AT SKIP: carry the robot off AT s after the log's start: the next SKIP s are left out, odometry too")

@@ -28,11 +28,12 @@ class Gaps {
   bool contain(const RawlogEntry& entry, Localizer& localizer) {
     const auto time = timeOf(entry);
     if (!time) return false;
+    if (!first_) first_ = time;
     if (replay_.kidnapping && !kidnapped_) {
       const double from = *time + replay_.kidnapping->at;
       kidnapped_ = Kidnapped{from, from + replay_.kidnapping->skip};
     }
-    if (*time < replay_.begin) return true;
+    if (*time < *first_ + replay_.skipped || *time < replay_.begin) return true;
     if (!kidnapped_ || *time < kidnapped_->from || *time >= kidnapped_->until) return false;
     localizer.kidnap();
     return true;
@@ -42,6 +43,7 @@ class Gaps {
 
  private:
   const Replay& replay_;
+  std::optional<double> first_;  ///< time of the log's first step
   std::optional<Kidnapped> kidnapped_;
 };
 
@@ -70,14 +72,15 @@ ProblemReport replay(const Replay& replay, Localizer& localizer, LocalizationRun
   return problems;
 }
 
-double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& ground_truth) {
+double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& ground_truth, double skipped) {
   RawlogReader reader(rawlog);
   RawlogEntry entry;
-  std::optional<double> first, last;
+  std::optional<double> begin, first, last;
   while (reader.next(entry)) {
-    if (std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(entry.observation)) continue;
     const auto time = timeOf(entry);
     if (!time) continue;
+    if (!begin) begin = *time + skipped;
+    if (*time < *begin || std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(entry.observation)) continue;
     if (ground_truth.at(*time)) return *time;
     if (!first) first = time;
     last = time;

@@ -13,7 +13,8 @@ namespace vmcl {
 /// What of a log is replayed.
 struct Replay {
   std::filesystem::path rawlog;
-  double begin = -std::numeric_limits<double>::infinity();  ///< steps before this time are left out
+  double skipped = 0;                                       ///< s: so much of the log's start is left out,
+  double begin = -std::numeric_limits<double>::infinity();  ///< and steps before this time
   std::optional<Kidnapping> kidnapping;
 };
 
@@ -21,8 +22,8 @@ struct Replay {
 /// nothing of it can be read, or when it ends before the kidnapped robot has been seen again.
 ProblemReport replay(const Replay& replay, Localizer& localizer, LocalizationRun& run);
 
-/// The time of the first observation that the ground truth covers. Throws std::runtime_error naming the log when there
-/// is none.
-double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& ground_truth);
+/// The time of the first observation, so long (s) after the log's start, that the ground truth covers. Throws
+/// std::runtime_error naming the log when there is none.
+double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& ground_truth, double skipped);
 
 }  // namespace vmcl

@@ -100,7 +100,8 @@ class LocalizeLaserTest(CommandTest):
 
     def test_output_that_cannot_be_written(self):
         self.write('taken', '')
-        self.assert_complaint(self.vmcl('localize', INI, '--out', 'taken'), FAILED, 'taken')
+        self.assert_complaint(self.vmcl('localize', INI, '--rawlog', LOG, '--map', MAP, '--out', 'taken'), FAILED, 'taken')
+        self.assert_refused(['localize', INI, '--map', MAP, '--rawlog', 'nowhere.rawlog', '--out', 'new/out'], 'nowhere')
 
 
 if __name__ == '__main__':

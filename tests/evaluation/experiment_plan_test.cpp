@@ -42,6 +42,18 @@ TEST_F(ExperimentPlanTest, SkipsSensorsWithoutAMap) {
   }
 }
 
+TEST_F(ExperimentPlanTest, StartsAtEachOfTheTimes) {
+  const Experiment experiment = read(with("seeds: 3", "start_times: [0, 2.5, 11]\nseeds: 1"));
+  const ExperimentPlan plan = planExperiment(experiment);
+  const auto job = std::find_if(plan.jobs.begin(), plan.jobs.end(),
+                                [](const Job& j) { return j.id == "query.laser.laser.global-after-2.5s.1"; });
+  ASSERT_NE(job, plan.jobs.end());
+  EXPECT_THAT(commandOf(experiment, *job), testing::IsSupersetOf({"--skip", "2.5"}));
+  EXPECT_EQ(plan.skipped.back().name, "query.odometry.few.kidnapped-at-2s-for-1.5s");
+  EXPECT_THAT(plan.skipped, testing::Contains(testing::Field(&SkippedCombination::reason,
+                                                             "the ground truth ends before the robot starts")));
+}
+
 TEST_F(ExperimentPlanTest, SkipsAKidnappingBeyondTheGroundTruth) {
   const ExperimentPlan plan = planExperiment(read(with("skip: 1.5", "skip: 8")));
   EXPECT_EQ(plan.jobs.size(), 18U);

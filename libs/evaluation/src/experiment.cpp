@@ -2,6 +2,7 @@
 #include "vmcl/evaluation/experiment.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -100,15 +101,25 @@ Start kidnappedStart(YamlMap yaml) {
   yaml.finish();
   std::ostringstream name;
   name << "kidnapped-at-" << kidnapping.at << "s-for-" << kidnapping.skip << 's';
-  return {name.str(), true, kidnapping};
+  return {name.str(), true, kidnapping, 0};
+}
+
+Start startAfter(double seconds, const std::string& kind) {
+  std::ostringstream name;
+  name << kind;
+  if (seconds > 0) name << "-after-" << seconds << 's';
+  return {name.str(), kind == "given", std::nullopt, seconds};
 }
 
 std::vector<Start> readStarts(YamlMap& yaml) {
   std::vector<Start> starts;
+  const auto times = yaml.get<std::vector<double>>("start_times", {0});
+  for (const double time : times)
+    if (!(time >= 0 && std::isfinite(time))) yaml.fail("start_times", "are not all finite and at least 0");
   if (yaml.has("starts"))
-    for (const std::string& name : yaml.texts("starts")) {
-      if (name != "given" && name != "global") yaml.fail("starts", "knows given and global, not '" + name + "'");
-      starts.push_back({name, name == "given", std::nullopt});
+    for (const std::string& kind : yaml.texts("starts")) {
+      if (kind != "given" && kind != "global") yaml.fail("starts", "knows given and global, not '" + kind + "'");
+      for (const double time : times) starts.push_back(startAfter(time, kind));
     }
   for (const YamlMap& kidnapping : yaml.list("kidnappings")) starts.push_back(kidnappedStart(kidnapping));
   refuseEqualNames(yaml, "starts", starts);
@@ -131,6 +142,7 @@ Experiment readExperiment(const fs::path& file) {
   experiment.seeds = yaml.get<int>("seeds");
   if (experiment.seeds < 1 || experiment.seeds > max_seeds)
     yaml.fail("seeds", "is not in [1, " + std::to_string(max_seeds) + "]");
+  experiment.keep_matches = yaml.get<bool>("keep_matches", false);
   yaml.finish();
   return experiment;
 }

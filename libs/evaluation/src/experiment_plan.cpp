@@ -34,9 +34,16 @@ std::string misfit(const ExperimentSession& session, const Configuration& config
 std::string misfit(const Start& start, Sensors sensors, double duration) {
   if (sensors == Sensors::odometry && !start.given) return "odometry alone does not tell where the robot starts";
   if (sensors == Sensors::odometry && start.kidnapping) return "odometry alone does not tell where the robot was put";
+  if (start.after >= duration) return "the ground truth ends before the robot starts";
   if (start.kidnapping && start.kidnapping->at + start.kidnapping->skip >= duration)
     return "the ground truth ends before the kidnapped robot sees again";
   return "";
+}
+
+std::string textOf(double seconds) {
+  std::ostringstream text;
+  text << seconds;
+  return text.str();
 }
 
 std::string join(const std::vector<std::string>& words) {
@@ -97,12 +104,9 @@ std::vector<std::string> commandOf(const Experiment& experiment, const Job& job)
   for (const auto& map : session.maps) command.insert(command.end(), {"--map", map.string()});
   for (const std::string& change : configuration.changes) command.insert(command.end(), {"--set", change});
   command.insert(command.end(), {"--start", start.given ? "given" : "global"});
-  if (start.kidnapping) {
-    std::ostringstream at, skip;
-    at << start.kidnapping->at;
-    skip << start.kidnapping->skip;
-    command.insert(command.end(), {"--kidnap", at.str(), skip.str()});
-  }
+  if (start.after > 0) command.insert(command.end(), {"--skip", textOf(start.after)});
+  if (start.kidnapping)
+    command.insert(command.end(), {"--kidnap", textOf(start.kidnapping->at), textOf(start.kidnapping->skip)});
   command.insert(command.end(), {"--seed", std::to_string(job.seed), "--tables-only"});
   return command;
 }

@@ -43,15 +43,27 @@ uint32_t JobDescriber::checksum(const std::filesystem::path& file) {
   return checksums_.emplace_back(file, crcOf(file)).second;
 }
 
+/// Contents of the files and the job's maps, and what is changed of the ini.
+std::string JobDescriber::textOfInputs(const Job& job, const std::vector<std::filesystem::path>& files) {
+  std::string all;
+  const auto add = [&](const std::string& part) { all += '\n' + part; };
+  for (const auto& file : files) add(hexadecimal(checksum(file)));
+  for (const auto& map : experiment_.sessions[job.session].maps)
+    add(map.extension().string() + hexadecimal(checksum(map)));
+  for (const std::string& change : experiment_.configurations[job.method.configuration].changes) add(change);
+  return all;
+}
+
 std::string JobDescriber::hashOf(const Job& job) {
   const ExperimentSession& session = experiment_.sessions[job.session];
   const Configuration& configuration = experiment_.configurations[job.method.configuration];
-  std::string all = job.id;  // sensors, start and seed are in it
-  const auto add = [&](const std::string& part) { all += '\n' + part; };
-  for (const auto& file : {session.rawlog, session.ground_truth, configuration.ini}) add(hexadecimal(checksum(file)));
-  for (const auto& map : session.maps) add(map.extension().string() + hexadecimal(checksum(map)));
-  for (const std::string& change : configuration.changes) add(change);
-  return hexadecimal(crcOf(all));
+  return hexadecimal(crcOf(job.id +  // sensors, start and seed are in it
+                           textOfInputs(job, {session.rawlog, session.ground_truth, configuration.ini})));
+}
+
+std::string JobDescriber::matchHashOf(const Job& job) {
+  return hexadecimal(crcOf(textOfInputs(
+      job, {experiment_.sessions[job.session].rawlog, experiment_.configurations[job.method.configuration].ini})));
 }
 
 std::string JobDescriber::describe(const Job& job) {

@@ -92,12 +92,20 @@ std::string JobRunner::describe(const Job& job) {
   return describer_.describe(job);
 }
 
+std::string JobRunner::matchHashOf(const Job& job) {
+  const std::scoped_lock lock(describer_mutex_);
+  return describer_.matchHashOf(job);
+}
+
 std::string JobRunner::run(const Job& job) {
   const fs::path aside = directory_ / "unfinished" / uniqueName(job), place = runDirectory(directory_, job);
   createDirectories(aside);
   createDirectories(place.parent_path());
   std::vector<std::string> arguments = commandOf(experiment_, job);
   arguments.insert(arguments.end(), {"--out", aside.string()});
+  if (experiment_.keep_matches)
+    arguments.insert(arguments.end(), {"--set", "MetricMap_visualKeyframes_00_creationOpts.match_directory=" +
+                                                    (directory_ / "matches" / matchHashOf(job)).string()});
   const ProcessEnd end = runProcess(vmcl_, arguments, aside / "stdout.txt", aside / "stderr.txt");
   writeRunEnd(aside, end, describe(job));
   const std::string reason = readRunEnd(aside).reason;

@@ -55,12 +55,11 @@ void writeFrames(const std::filesystem::path& file, const std::vector<Localizati
   for (const LocalizationFrame& frame : frames) {
     const PoseCluster& cluster = frame.cluster;
     const Eigen::Matrix3d& c = cluster.covariance;
-    out.stream() << std::fixed << std::setprecision(6) << frame.time << ','
-                 << (frame.localized ? "localized" : "searching") << ',' << std::defaultfloat << std::setprecision(9)
-                 << cluster.robot_in_map.x << ',' << cluster.robot_in_map.y << ',' << cluster.robot_in_map.phi << ','
-                 << c(0, 0) << ',' << c(0, 1) << ',' << c(0, 2) << ',' << c(1, 1) << ',' << c(1, 2) << ',' << c(2, 2)
-                 << ',' << cluster.share << ',' << frame.effective_share * frame.particles << ',' << frame.particles
-                 << ',' << frame.inliers << '\n';
+    out.stream() << std::fixed << std::setprecision(6) << frame.time << ',' << nameOf(frame.health.status) << ','
+                 << std::defaultfloat << std::setprecision(9) << cluster.robot_in_map.x << ',' << cluster.robot_in_map.y
+                 << ',' << cluster.robot_in_map.phi << ',' << c(0, 0) << ',' << c(0, 1) << ',' << c(0, 2) << ','
+                 << c(1, 1) << ',' << c(1, 2) << ',' << c(2, 2) << ',' << cluster.share << ','
+                 << frame.effective_share * frame.particles << ',' << frame.particles << ',' << frame.inliers << '\n';
   }
   out.commit();
 }

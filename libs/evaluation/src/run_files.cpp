@@ -133,7 +133,8 @@ std::vector<RunUpdate> readUpdates(const fs::path& run) {
   for (const auto& row : readCsv(file, columns)) {
     const auto number = [&](Column column) { return numberIn(file, row[column]); };
     RunUpdate& update = updates.emplace_back();
-    update.estimate = {number(time), row[status] == "localized", {number(x), number(y), number(phi)}};
+    update.estimate = {
+        number(time), row[status] == nameOf(LocalizationStatus::tracking), {number(x), number(y), number(phi)}};
     update.covariance << number(xx), number(xy), number(xphi), number(xy), number(yy), number(yphi), number(xphi),
         number(yphi), number(phiphi);
     update.particles = static_cast<int>(number(particles));

@@ -39,6 +39,7 @@ struct Start {
   std::string name;
   bool given = true;                     ///< about; else nothing
   std::optional<Kidnapping> kidnapping;  ///< after a given start
+  double after = 0;                      ///< s of the log's start that are left out
 };
 
 /// Each session with each sensor set, configuration, start and seed is a run. doc/file_formats.md has the file's form.
@@ -48,7 +49,8 @@ struct Experiment {
   std::vector<Sensors> sensors;
   std::vector<Configuration> configurations;
   std::vector<Start> starts;
-  int seeds = 1;  ///< 1 to this
+  int seeds = 1;              ///< 1 to this
+  bool keep_matches = false;  ///< runs on the same log and map share what images have in common with the map
 };
 
 /// Relative paths start at the working directory or, if there is no such file, at the experiment's directory. All paths

@@ -59,8 +59,12 @@ class JobDescriber {
   /// Eight hexadecimal digits.
   std::string hashOf(const Job& job);
 
+  /// The same for all jobs whose images have the same matches with the same map.
+  std::string matchHashOf(const Job& job);
+
  private:
   uint32_t checksum(const std::filesystem::path& file);
+  std::string textOfInputs(const Job& job, const std::vector<std::filesystem::path>& files);
 
   const Experiment& experiment_;
   std::vector<std::pair<std::filesystem::path, uint32_t>> checksums_;

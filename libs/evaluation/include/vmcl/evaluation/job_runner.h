@@ -58,6 +58,7 @@ class JobRunner {
 
  private:
   std::string describe(const Job& job);
+  std::string matchHashOf(const Job& job);
 
   std::filesystem::path directory_;
   std::filesystem::path vmcl_;
