@@ -18,8 +18,8 @@
 // Layout: magic[8], CRC-32 of the numbers u32, numbers f64[] in the machine's byte order:
 //   counts of query cameras, reference cameras and matches
 //   cameras   each: width height fx fy cx cy, pose by columns [16]
-//   matches   each: query camera, pixel [2], reference camera, pixel [2], point known (0 or 1), point [3], covariance
-//   [9]
+//   matches   each: query camera, pixel [2], reference camera, pixel [2], inlier odds, point known (0 or 1), point [3],
+//             covariance [9]
 
 namespace vmcl {
 namespace {
@@ -51,6 +51,7 @@ void visitNumbers(Problem& problem, Number&& number) {
     all(match.query_pixel);
     number(match.reference_camera);
     all(match.reference_pixel);
+    number(match.inlier_odds);
     auto point = match.point.value_or(MapPoint{});
     bool known = match.point.has_value();
     number(known);
