@@ -34,14 +34,21 @@ class MatchSettingTest : public testing::Test {
     EXPECT_NO_THROW(result.problem.check());
     ASSERT_TRUE(result.estimate.found());
     const PlanarPose& pose = result.estimate.modes[0].robot_in_map;
-    EXPECT_NEAR(pose.x, truth_.x, 0.03);
-    EXPECT_NEAR(pose.y, truth_.y, 0.03);
+    EXPECT_NEAR(pose.x, truth_.x, 0.05);
+    EXPECT_NEAR(pose.y, truth_.y, 0.05);
     EXPECT_NEAR(wrapAngle(pose.phi - truth_.phi), 0, 0.01);
   }
 
   static constexpr PlanarPose truth_{0.15, -0.25, 0.12};
   const SyntheticRoom room_;
-  const KeyframeMap map_ = mapOf(room_);
+  const KeyframeMap map_ = [this] {
+    KeyframeMap map = mapOf(room_);
+    map.feature_options.max_features = 60;  // of the query: leaves most of the image to dense matches
+    for (Keyframe& keyframe : map.keyframes)
+      for (std::size_t i = 0; i < keyframe.landmark_of_feature.size(); ++i)
+        if (i % 2 != 0) keyframe.landmark_of_feature[i] = -1;  // and most of that to matches without depth
+    return map;
+  }();
   const Image image_ = room_.look(truth_, SyntheticRoom::mount());
 };
 
@@ -52,10 +59,9 @@ TEST_F(MatchSettingTest, DenserSettingsMatchMore) {
     expectFound(result);
     EXPECT_GT(depthsOf(result).second, 0.8);
   }
-  EXPECT_GT(dcsd.problem.matches.size(), scsd.problem.matches.size() + 200);
-  EXPECT_EQ(dcdd.problem.matches.size(), dcsd.problem.matches.size());
+  EXPECT_GT(dcsd.problem.matches.size(), scsd.problem.matches.size() + 30);
   EXPECT_GE(depthsOf(dcsd).first, depthsOf(scsd).first);
-  EXPECT_GT(depthsOf(dcdd).first, depthsOf(dcsd).first + 200);
+  EXPECT_GT(depthsOf(dcdd).first, depthsOf(dcsd).first + 10);
 }
 
 TEST_F(MatchSettingTest, DepthComesFromLandmarksWhereItWasNotMeasured) {
@@ -63,7 +69,7 @@ TEST_F(MatchSettingTest, DepthComesFromLandmarksWhereItWasNotMeasured) {
   for (Keyframe& keyframe : map.keyframes) keyframe.dense.depth.clear();
   const auto dcsd = relocalize(MatchSetting::dcsd, map), dcdd = relocalize(MatchSetting::dcdd, map);
   expectFound(dcdd);
-  EXPECT_GT(depthsOf(dcdd).first, depthsOf(dcsd).first + 200);
+  EXPECT_GT(depthsOf(dcdd).first, depthsOf(dcsd).first + 10);
   EXPECT_GT(depthsOf(dcdd).second, 0.8);
 }
 

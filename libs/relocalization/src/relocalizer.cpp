@@ -31,6 +31,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Dense matches nearer to each other than this share most of the windows that they were found by, and their errors.
+constexpr double independent_px = 3 * dense_grid_step;
+
 /// A match of one query image before evidence that repeats itself is dropped.
 struct Candidate {
   Match match;
@@ -51,8 +54,8 @@ double largestSigma(const Eigen::Matrix3d& covariance) {
 
 /// Each place of the query image was measured once and gives one match, with depth if there is such a one, by the most
 /// distinctive feature: matches with several references, and features that differ in orientation alone, share its
-/// error. So does a landmark, seen through whatever reference. Dense matches fill what is left of the image, one a cell
-/// of their grid, and bring depth to cells without.
+/// error. So does a landmark, seen through whatever reference. Dense matches fill what is left of the image, one a
+/// cell of independent_px, and bring depth to cells without.
 std::vector<Candidate> withoutRepetition(std::vector<Candidate> candidates) {
   std::ranges::stable_sort(candidates, {}, [](const Candidate& candidate) {
     return std::tuple(candidate.is_dense, !candidate.match.point, candidate.ratio);
@@ -62,7 +65,7 @@ std::vector<Candidate> withoutRepetition(std::vector<Candidate> candidates) {
   std::set<std::pair<int, int>> cells, cells_with_depth;
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Eigen::Vector2d& pixel = candidate.match.query_pixel;
-    const Eigen::Vector2i cell = (pixel / dense_grid_step).array().floor().cast<int>();
+    const Eigen::Vector2i cell = (pixel / independent_px).array().floor().cast<int>();
     const std::pair place(pixel.x(), pixel.y());
     const std::pair cell_place(cell.x(), cell.y());
     if (candidate.is_dense ? (candidate.match.point ? cells_with_depth : cells).contains(cell_place)
