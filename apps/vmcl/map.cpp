@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iomanip>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
+#include "map_summary.h"
 #include "posed_images.h"
 #include "progress_bar.h"
 #include "verbs.h"
+#include "vmcl/evaluation/map_picture.h"
 #include "vmcl/geometry/atomic_file.h"
 #include "vmcl/mapping/map_file.h"
 
@@ -13,10 +15,11 @@ namespace vmcl {
 namespace {
 
 struct MapArguments {
-  std::string input;
+  std::vector<std::string> inputs;
   std::string output;
-  std::string trajectory;
+  std::vector<std::string> trajectories;
   std::string info;
+  std::string picture;
   std::vector<std::string> masks;
   std::string features = "sift";
   double keyframe_rotation_deg = MapBuilderOptions().keyframe_rotation / degree;
@@ -32,51 +35,9 @@ struct MapArguments {
     complete.sigma_mount_tilt = sigma_mount_tilt_deg * degree;
     return complete;
   }
-
-  bool readsSimpleMap() const { return input.ends_with(".simplemap") || input.ends_with(".simplemap.gz"); }
 };
 
-void print(const MapBuildReport& report, const KeyframeMap& map, const PosedImages& images) {
-  std::cout << std::fixed << std::setprecision(2) << images.images() << " images, " << images.imagesWithoutPose()
-            << " of them without a pose; " << report.keyframes << " keyframes, " << report.features << " features\n"
-            << report.landmarks << " landmarks, seen " << report.mean_observations
-            << " times each, median reprojection error " << report.median_reprojection_px << " px\n";
-  for (std::size_t i = 0; i < map.cameras.size(); ++i) {
-    const Eigen::Vector3d turn_deg = report.mount_correction[i] / degree;
-    const Eigen::Vector3d& shift = report.mount_shift[i];
-    std::cout << "camera '" << map.cameras[i].label << "': mount turned by roll " << turn_deg.x() << ", pitch "
-              << turn_deg.y() << ", yaw " << turn_deg.z() << " deg, shifted by x " << std::setprecision(3) << shift.x()
-              << ", y " << shift.y() << " m, focal length times " << report.focal_scale[i] << std::setprecision(2)
-              << '\n';
-  }
-}
-
-/// Of the image's area.
-double maskedShare(const MapCamera& camera) {
-  const auto& [width, height] = std::pair(camera.calibration.pinhole.width, camera.calibration.pinhole.height);
-  int masked = std::min(camera.mask_rows_from_top, height) * width;
-  for (std::size_t i = static_cast<std::size_t>(masked); i < camera.mask.pixels.size(); ++i)
-    masked += camera.mask.pixels[i] >= 128;
-  return static_cast<double>(masked) / (static_cast<double>(width) * height);
-}
-
-int runInfo(const std::string& file) {
-  const KeyframeMap map = loadMap(file);
-  std::cout << file << ": " << map.keyframes.size() << " keyframes, " << map.landmarks.size() << " landmarks, "
-            << nameOf(map.feature_options.kind) << " features, " << map.vocabulary.words().rows()
-            << " words of place recognition\n"
-            << std::fixed;
-  for (const MapCamera& camera : map.cameras) {
-    const PinholeCamera& pinhole = camera.calibration.pinhole;
-    std::cout << "camera '" << camera.label << "': " << pinhole.width << "x" << pinhole.height << std::setprecision(2)
-              << ", fx " << pinhole.fx << ", fy " << pinhole.fy << ", cx " << pinhole.cx << ", cy " << pinhole.cy
-              << ", distortion " << std::setprecision(4)
-              << Eigen::Map<const Eigen::RowVector<double, 5>>(camera.calibration.distortion.data()) << ", mounted at "
-              << camera.robot_from_camera.translation().transpose() << " m, " << std::setprecision(0)
-              << 100 * maskedShare(camera) << " % masked\n";
-  }
-  return exit_done;
-}
+bool isSimpleMap(const std::string& input) { return input.ends_with(".simplemap") || input.ends_with(".simplemap.gz"); }
 
 /// Masks by camera label, from words LABEL=FILE; a word FILE is for every other camera and has the label "".
 std::map<std::string, Image> readMasks(const std::vector<std::string>& words) {
@@ -91,40 +52,86 @@ std::map<std::string, Image> readMasks(const std::vector<std::string>& words) {
   return masks;
 }
 
-int runMap(const MapArguments& arguments) {
-  if (!arguments.info.empty()) return runInfo(arguments.info);
-  if (arguments.input.empty()) throw std::runtime_error("map: INPUT is required");
+/// What is wrong with the way the verb was called.
+void checkUsage(const MapArguments& arguments) {
+  if (arguments.inputs.empty()) throw std::runtime_error("map: INPUT is required");
   if (arguments.output.empty()) throw std::runtime_error("map: --output is required");
-  if (arguments.trajectory.empty() != arguments.readsSimpleMap())
-    throw std::runtime_error(arguments.readsSimpleMap() ? "map: a simplemap has its own poses: leave --trajectory out"
-                                                        : "map: the poses of a rawlog are needed: give --trajectory");
+  const auto rawlogs = std::ranges::count_if(arguments.inputs, [](const auto& input) { return !isSimpleMap(input); });
+  if (std::ssize(arguments.trajectories) > rawlogs)
+    throw std::runtime_error("map: a simplemap has its own poses: --trajectory is for rawlogs, one each");
+  if (std::ssize(arguments.trajectories) < rawlogs)
+    throw std::runtime_error("map: the poses of a rawlog are needed: give --trajectory for each, in their order");
+}
+
+/// What is wrong where a trajectory leaves one place for another; empty where it does not.
+std::string jumpIn(const Trajectory& trajectory) {
+  constexpr double fastest = 15, slip = 0.5;  // m/s that a robot may drive, m that a correction may shift it
+  const std::vector<StampedPose>& poses = trajectory.poses();
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const double way = (poses[i].map_from_robot.translation() - poses[i - 1].map_from_robot.translation()).norm();
+    if (way > slip + fastest * (poses[i].time - poses[i - 1].time))
+      return "jumps by " + std::to_string(way) + " m at time " + std::to_string(poses[i].time);
+  }
+  return {};
+}
+
+/// Every input is a session. One of which nothing can be used is a problem, unless it is the only one.
+void readSessions(const MapArguments& arguments, MapBuilder& builder, PosedImages& images, ProgressBar& bar) {
+  auto trajectory = arguments.trajectories.begin();
+  for (std::size_t i = 0; i < arguments.inputs.size(); ++i) {
+    const std::string& input = arguments.inputs[i];
+    const auto reading = [&](double share) {
+      bar.update("reading", (static_cast<double>(i) + share) / static_cast<double>(arguments.inputs.size()));
+    };
+    const int images_before = images.images(), keyframes_before = builder.keyframeCount();
+    builder.startSession();
+    if (isSimpleMap(input)) {
+      images.readSimpleMap(input, reading);
+    } else {
+      const Trajectory poses = readTumTrajectory(*trajectory);
+      if (const std::string jump = jumpIn(poses); !jump.empty()) images.addProblem(*trajectory + ": " + jump);
+      images.readRawlog(input, poses, reading);
+      ++trajectory;
+    }
+    if (builder.keyframeCount() > keyframes_before) continue;
+    images.addProblem(input + (images.images() == images_before ? ": no camera images" : ": no image has a pose"));
+  }
+  if (builder.keyframeCount() == 0) throw std::runtime_error(images.problems().inOneLine());
+}
+
+int runMap(const MapArguments& arguments) {
+  if (!arguments.info.empty()) {
+    const auto map = std::make_shared<const KeyframeMap>(loadMap(arguments.info));
+    if (!arguments.picture.empty()) drawMap(arguments.picture, map);
+    printInfo(arguments.info, *map);
+    return exit_done;
+  }
+  checkUsage(arguments);
   AtomicFile(arguments.output);  // fails now rather than after the work
   ProgressBar bar;
   MapBuilder builder({}, arguments.builderOptions());
   PosedImages images(builder, readMasks(arguments.masks));
-  const auto reading = [&](double share) { bar.update("reading", share); };
-  if (arguments.readsSimpleMap())
-    images.readSimpleMap(arguments.input, reading);
-  else
-    images.readRawlog(arguments.input, readTumTrajectory(arguments.trajectory), reading);
+  readSessions(arguments, builder, images, bar);
   if (const std::string label = images.maskWithoutCamera(); !label.empty())
-    throw std::runtime_error("map: --mask: no camera '" + label + "' in " + arguments.input);
-  if (images.images() == 0)
-    throw std::runtime_error(images.problems().empty() ? arguments.input + ": no camera images"
-                                                       : images.problems().inOneLine());
-  if (builder.keyframeCount() == 0)
-    throw std::runtime_error(images.problems().empty() ? arguments.input + ": no image has a pose"
-                                                       : images.problems().inOneLine());
-  const auto [map, report] = builder.build([&](std::string_view stage, double share) { bar.update(stage, share); });
-  saveMap(arguments.output, map);
+    throw std::runtime_error("map: --mask: no camera '" + label + "' in the input");
+  auto [built, report] = builder.build([&](std::string_view stage, double share) { bar.update(stage, share); });
+  const auto map = std::make_shared<const KeyframeMap>(std::move(built));
+  saveMap(arguments.output, *map);
+  for (int session : sessionsApart(*map))
+    images.addProblem("session " + std::to_string(session) +
+                      ": shares no landmark with the others; only its given poses say where it lies");
+  if (!arguments.picture.empty()) drawMap(arguments.picture, map);
   images.problems().print("map");
-  print(report, map, images);
+  std::cout << images.images() << " images, " << images.imagesWithoutPose() << " of them without a pose; "
+            << report.keyframes << " keyframes, " << report.features << " features\n";
+  printSummary(report, *map);
   return images.problems().empty() ? exit_done : exit_some_input_bad;
 }
 
 void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   MapBuilderOptions& options = arguments.options;
-  verb.add_option("--features", arguments.features, "orb, sift, akaze, or the .onnx file of a network")->capture_default_str();
+  verb.add_option("--features", arguments.features, "orb, sift, akaze, or the .onnx file of a network")
+      ->capture_default_str();
   verb.add_option("--max-features", options.features.max_features, "strongest features kept of an image")
       ->capture_default_str();
   verb.add_option("--mask-rows-from-top", options.features.mask_rows_from_top,
@@ -136,6 +143,9 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   verb.add_option("--keyframe-distance", options.keyframe_distance, "a new keyframe after this way (m)")
       ->capture_default_str();
   verb.add_option("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn")->capture_default_str();
+  verb.add_flag("--flat,!--not-flat", options.flat,
+                "the robot stands level at height 0, the default; or as high and tilted as its poses say")
+      ->capture_default_str();
   verb.add_option("--sigma-position", options.sigma_position, "standard deviation of the given positions (m)")
       ->capture_default_str();
   verb.add_option("--sigma-heading-deg", arguments.sigma_heading_deg, "and headings")->capture_default_str();
@@ -165,15 +175,21 @@ void addMapVerb(CLI::App& app, int& exit_code) {
       "Make a map of keyframes and landmarks from posed images: a rawlog and a trajectory, or a simplemap.\n"
       "Poses are taken as on flat ground. They and the camera mounts are adjusted within their standard deviations.");
   const auto arguments = std::make_shared<MapArguments>();
-  verb->add_option("INPUT", arguments->input, "a .rawlog, or a .simplemap (may be gzipped)");
+  verb->add_option("INPUT", arguments->inputs,
+                   "a .rawlog, or a .simplemap (may be gzipped); several become the sessions of one map");
   verb->add_option("-o,--output", arguments->output, "the .vmap to write");
-  verb->add_option("--trajectory", arguments->trajectory, "poses of the robot for a rawlog, TUM format");
+  verb->add_option("--trajectory", arguments->trajectories,
+                   "poses of the robot for a rawlog, TUM format; once for each rawlog, all in one map frame")
+      ->allow_extra_args(false);
   verb->add_option("--info", arguments->info, "only say what this .vmap holds");
+  verb->add_option("--picture", arguments->picture, "show the map, too: FILE.svg, FILE.png and FILE.3Dscene")
+      ->type_name("FILE");
   addBuilderOptions(*verb, *arguments);
   verb->footer(
       "Examples:\n"
       "  vmcl map drive.rawlog --trajectory drive.groundtruth.tum -o drive.vmap\n"
-      "  vmcl map --info drive.vmap");
+      "  vmcl map monday.rawlog friday.rawlog --trajectory monday.tum --trajectory friday.tum -o lab.vmap\n"
+      "  vmcl map --info drive.vmap --picture drive");
   verb->callback([arguments, &exit_code] { exit_code = runMap(*arguments); });
 }
 

@@ -6,8 +6,10 @@
 #include <stdexcept>
 
 #include "vmcl/datasets/rawlog_reader.h"
+#include "vmcl/datasets/rawlog_writer.h"
 #include "vmcl/mrpt/camera_observation.h"
 #include "vmcl/mrpt/error_message.h"
+#include "vmcl/mrpt/measured_depth.h"
 #include "vmcl/mrpt/object_file.h"
 #include "vmcl/mrpt/pose_conversion.h"
 
@@ -45,7 +47,8 @@ void PosedImages::offer(const std::filesystem::path& file, const mrpt::obs::CObs
     ++images_without_pose_;
     return;
   }
-  builder_.add(seen->time, cameraOf(*seen), *map_from_robot, seen->image.view());
+  builder_.add(seen->time, cameraOf(*seen), *map_from_robot, seen->image.view(),
+               measuredDepth(observation, rawlogCompanion(file, "_Images")));
 } catch (const std::exception& error) {
   problems_.add(file.string() + ": " + errorMessage(error));
 }

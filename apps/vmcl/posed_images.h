@@ -35,6 +35,7 @@ class PosedImages {
   int imagesWithoutPose() const { return images_without_pose_; }
 
   /// What could not be used.
+  void addProblem(const std::string& problem) { problems_.add(problem); }
   const ProblemReport& problems() const { return problems_; }
 
  private:

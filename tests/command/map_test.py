@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`vmcl map`: from a simplemap, and from a log with a trajectory; broken ones are refused."""
-from command import SAMPLE, SOME_INPUT_BAD, CommandTest, main
+import resource
+import signal
+import subprocess
+
+from command import BIN, FAILED, SAMPLE, SOME_INPUT_BAD, CommandTest, main
 from png import grey_png
 
 LOG = SAMPLE / 'map.rawlog'
@@ -28,6 +32,52 @@ class MapTest(CommandTest):
         for name in ('once', 'again'):
             self.succeed('map', SIMPLE_MAP, '-o', f'{name}.vmap', '--max-features', 100)
         self.assertEqual(self.path('again.vmap').read_bytes(), self.path('once.vmap').read_bytes())
+
+    def shifted(self, name, seconds, shift, after=0):
+        """first_poses, with those later than `after` s moved by `shift` m along x."""
+        lines = [line.split() for line in self.first_poses(seconds).read_text().splitlines()]
+        start = float(lines[0][0])
+        for line in lines:
+            if float(line[0]) >= start + after:
+                line[1] = str(float(line[1]) + shift)
+        return self.write(name, ''.join(' '.join(line) + '\n' for line in lines))
+
+    def test_sessions(self):
+        few = self.first_poses(1)
+        start = SAMPLE / 'start.rawlog'
+        both = ['map', LOG, start, '--trajectory', few, '--trajectory', SAMPLE / 'start.groundtruth.tum']
+        self.succeed(*both, '-o', 'out.vmap', '--max-features', 300, '--picture', 'out')
+        printed = self.succeed('map', '--info', 'out.vmap')
+        self.assertIn('session 0', printed)
+        self.assertIn('session 1', printed)
+        for picture in ('out.svg', 'out.png', 'out.3Dscene'):
+            self.assertGreater(self.path(picture).stat().st_size, 1000, picture)
+        elsewhere = self.vmcl('map', LOG, start, '--trajectory', few, '--trajectory', self.write(
+            'elsewhere.tum', '1000 50 50 0 0 0 0 1\n1000.4 50.05 50 0 0 0 0 1\n1000.8 50.1 50 0 0 0 0 1\n'),
+                              '-o', 'out.vmap', '--max-features', 300)
+        self.assertEqual(elsewhere.returncode, SOME_INPUT_BAD)
+        self.assertIn('shares no landmark', elsewhere.stderr)
+
+    def test_trajectory_that_jumps(self):
+        """The map is made, and the jump is named."""
+        result = self.vmcl(*self.map_of(LOG, self.shifted('jump.tum', 2, 30, after=1)), '--max-features', 300)
+        self.assert_complaint(result, SOME_INPUT_BAD, 'jump.tum', 'jumps by')
+        self.succeed('map', '--info', 'out.vmap')
+
+    def test_full_disk(self):
+        """The map that is there stays."""
+        self.write('out.vmap', 'precious')
+
+        def allow_little():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
+
+        result = subprocess.run(
+            [BIN / 'vmcl', *map(str, self.map_of(LOG, self.first_poses(1))), '--max-features', '300'], text=True,
+            capture_output=True, cwd=self.folder, timeout=300, check=False, preexec_fn=allow_little)
+        self.assert_complaint(result, FAILED, 'out.vmap', 'cannot be written')
+        self.assertEqual(self.path('out.vmap').read_text(), 'precious')
+        self.assertEqual([file.name for file in self.folder.glob('out.vmap*')], ['out.vmap'])
 
     def test_masks(self):
         """What is masked has no features: nothing is left of a view all masked, and the map keeps the mask."""
@@ -93,6 +143,7 @@ class MapTest(CommandTest):
     def test_bad_arguments(self):
         for arguments, word in (([], 'INPUT'), ([LOG], 'output'), ([LOG, '-o', 'out.vmap'], 'trajectory'),
                                 ([SIMPLE_MAP, '--trajectory', POSES, '-o', 'out.vmap'], 'trajectory'),
+                                ([LOG, LOG, '--trajectory', POSES, '-o', 'out.vmap'], 'trajectory'),
                                 ([SIMPLE_MAP, '-o', 'out.vmap', '--features', 'magic'], 'magic'),
                                 ([SIMPLE_MAP, '-o', 'out.vmap', '--max-features', '0'], 'max_features'),
                                 ([SIMPLE_MAP, '-o', 'out.vmap', '--seed', '-1'], 'seed'),

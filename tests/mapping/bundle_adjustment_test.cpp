@@ -16,6 +16,8 @@ Reconstruction brokenScene() {
   scene.corrections.resize(1);
   scene.keyframes.resize(3);
   scene.map_from_robot.resize(3);
+  scene.depths.resize(3);
+  scene.level_from_robot.resize(3, Rigid3::Identity());
   for (Keyframe& keyframe : scene.keyframes) keyframe.features.pixels.emplace_back(320, 240);
   scene.points.push_back({Eigen::Vector3d::Constant(std::nan("")), {{0, 0}, {1, 0}, {2, 0}}});
   return scene;

@@ -33,9 +33,16 @@ inline MapCamera forwardCamera() {
   return camera;
 }
 
-/// What the camera sees of the room: pixels with noise, and a share of features whose pixel is anywhere.
-inline FeatureSet see(const Room& room, const ReferenceCamera& view, double sigma_px, double outliers, Random& random) {
+/// Features and the depth of each along the optical axis (m), 0 for outliers.
+struct Seen {
   FeatureSet features;
+  std::vector<float> depths;
+};
+
+/// What the camera sees of the room: pixels with noise, and a share of features whose pixel is anywhere.
+inline Seen see(const Room& room, const ReferenceCamera& view, double sigma_px, double outliers, Random& random) {
+  FeatureSet features;
+  std::vector<float> depths;
   std::vector<int> seen;
   for (int i = 0; i < std::ssize(room.points_in_map); ++i) {
     const Eigen::Vector3d point_in_camera =
@@ -43,17 +50,18 @@ inline FeatureSet see(const Room& room, const ReferenceCamera& view, double sigm
     if (point_in_camera.z() < 0.1) continue;
     const Eigen::Vector2d pixel = view.camera.project(point_in_camera);
     if (!view.camera.contains(pixel)) continue;
+    const bool is_outlier = random.uniform() < outliers;
     const Eigen::Vector2d shown =
-        random.uniform() < outliers
-            ? Eigen::Vector2d(random.uniform(0, view.camera.width), random.uniform(0, view.camera.height))
-            : Eigen::Vector2d(pixel + sigma_px * Eigen::Vector2d(random.normal(), random.normal()));
+        is_outlier ? Eigen::Vector2d(random.uniform(0, view.camera.width), random.uniform(0, view.camera.height))
+                   : Eigen::Vector2d(pixel + sigma_px * Eigen::Vector2d(random.normal(), random.normal()));
     features.pixels.push_back(shown.cast<float>());
     features.sizes.push_back(31);
     features.responses.push_back(1);
+    depths.push_back(is_outlier ? 0 : static_cast<float>(point_in_camera.z()));
     seen.push_back(i);
   }
   features.descriptors = room.descriptors(seen, Eigen::all);
-  return features;
+  return {std::move(features), std::move(depths)};
 }
 
 /// An oval drive with the nose along the way.
@@ -74,9 +82,11 @@ struct Recording {
   double k1 = 0;                                          ///< true radial distortion; the given one is 0
   double k2 = 0;
   double sigma_px = 0.5;
+  double sigma_depth = 0;  ///< of the inverse depth (1/m); 0: none is measured
   double sigma_position = 0.02;
   double sigma_heading = 0.01;
   double outliers = 0.1;
+  mutable std::vector<Rigid3> given_poses{};  ///< of the map built last
 
   MapCamera trueCamera() const {
     MapCamera camera = forwardCamera();
@@ -104,14 +114,19 @@ struct Recording {
     Random random(seed);
     MapBuilder builder({forwardCamera()}, options);
     const MapCamera camera = trueCamera();
+    given_poses.clear();
     for (std::size_t i = 0; i < drive.size(); ++i) {
       const ReferenceCamera view{camera.calibration.pinhole, toRigid3(drive[i]) * camera.robot_from_camera};
       const PlanarPose given{drive[i].x + sigma_position * random.normal(),
                              drive[i].y + sigma_position * random.normal(),
                              drive[i].phi + sigma_heading * random.normal()};
-      FeatureSet seen = see(room, view, sigma_px, outliers, random);
+      given_poses.push_back(toRigid3(given));
+      auto [seen, depths] = see(room, view, sigma_px, outliers, random);
       for (Eigen::Vector2f& pixel : seen.pixels) pixel = camera.calibration.distort(pixel.cast<double>()).cast<float>();
-      builder.add(0.1 * static_cast<double>(i), 0, toRigid3(given), std::move(seen));
+      for (float& depth : depths)
+        if (depth > 0) depth = static_cast<float>(1 / (1 / depth + sigma_depth * random.normal()));
+      if (sigma_depth == 0) depths.clear();
+      builder.add(0.1 * static_cast<double>(i), 0, toRigid3(given), std::move(seen), std::move(depths));
     }
     return builder.build();
   }

@@ -3,6 +3,8 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include "gnuplot.h"
+#include "vmcl/geometry/atomic_file.h"
 #include "vmcl/mrpt/visual_keyframe_map.h"
 
 namespace vmcl {
@@ -118,6 +120,24 @@ std::string plotOf(const std::string& prefix, const std::vector<PlotLayer>& laye
   for (std::size_t i = 0; i < layers.size(); ++i)
     plot << (i ? ", $" : "$") << prefix << i << ' ' << layers[i].style << " title '" << layers[i].name << '\'';
   return plot.str();
+}
+
+void drawLayers(const std::filesystem::path& stem, const std::vector<PlotLayer>& layers) {
+  AtomicFile script(stem.string() + ".gnuplot"), svg(stem.string() + ".svg"), png(stem.string() + ".png");
+  const Eigen::AlignedBox2d view = viewOf(layers);
+  constexpr int width = 900;
+  const std::string size = std::to_string(width) + ',' + std::to_string(heightOf(view, width));
+  writeData(script.stream(), "layer", layers);
+  script.stream() << rangesOf(view)
+                  << "set size ratio -1\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nset grid lc rgb '#dddddd'\n"
+                  << "set key outside\nset terminal svg size " << size << " background rgb 'white'\nset output "
+                  << quoted(svg.temporaryPath()) << "\nplot " << plotOf("layer", layers)
+                  << "\nset terminal pngcairo size " << size << "\nset output " << quoted(png.temporaryPath())
+                  << "\nreplot\n";
+  script.stream().flush();
+  runGnuplot(script.temporaryPath(), stem.string() + ".svg");
+  svg.commit();
+  png.commit();
 }
 
 }  // namespace vmcl

@@ -4,6 +4,7 @@
 #include <mrpt/maps/CMultiMetricMap.h>
 
 #include <Eigen/Geometry>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -45,5 +46,9 @@ void writeData(std::ostream& script, const std::string& prefix, const std::vecto
 
 /// What follows `plot`.
 std::string plotOf(const std::string& prefix, const std::vector<PlotLayer>& layers);
+
+/// Draws the layers seen from above: `stem`.svg and `stem`.png, each written aside and renamed. Throws
+/// std::runtime_error naming the file when gnuplot is missing or fails.
+void drawLayers(const std::filesystem::path& stem, const std::vector<PlotLayer>& layers);
 
 }  // namespace vmcl

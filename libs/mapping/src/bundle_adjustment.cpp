@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "reprojection_residual.h"
+#include "measurement_residuals.h"
 
 namespace vmcl {
 namespace {
 
 constexpr double smallest_sigma = 1e-6;  // keeps a value that counts as exact in the equations
-constexpr double huber_threshold = 2;    // standard deviations
 
 Eigen::Vector3d weights(const Eigen::Vector3d& sigmas) { return sigmas.cwiseMax(smallest_sigma).cwiseInverse(); }
 
@@ -87,10 +86,15 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
       const auto k = static_cast<std::size_t>(seen.keyframe);
       const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
       CameraCorrection& correction = scene.corrections[camera];
+      const MeasuringCamera from{&scene.cameras[camera], &scene.level_from_robot[k]};
       auto* cost = new ReprojectionCost(  // owned by the problem
-          new ReprojectionResidual{&scene.cameras[camera], scene.distortedPixel(seen), noise.pixel});
+          new ReprojectionResidual{from, scene.distortedPixel(seen), noise.measurement.pixel});
       problem.AddResidualBlock(cost, &loss, poses[k].data(), correction.rotation.data(), correction.shift.data(),
                                correction.lens.data(), correction.radial.data(), point.point_in_map.data());
+      if (const double depth = scene.depth(seen); depth > 0)
+        problem.AddResidualBlock(new DepthCost(new DepthResidual{from, depth, noise.measurement.inverse_depth}), &loss,
+                                 poses[k].data(), correction.rotation.data(), correction.shift.data(),
+                                 point.point_in_map.data());
     }
     ordering->AddElementToGroup(point.point_in_map.data(), 0);
   }

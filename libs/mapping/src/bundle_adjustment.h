@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "measurement_noise.h"
 #include "reconstruction.h"
 
 namespace vmcl {
 
 /// Standard deviations of what the adjustment weighs; below a millionth of a unit counts as a millionth.
 struct AdjustmentNoise {
-  double pixel = 1;
+  MeasurementNoise measurement;
   double position = 0.02;        ///< of the given robot poses (m)
   double heading = 0.01;         ///< of the given robot poses (rad)
   double mount_rotation = 0.05;  ///< of the given mounts' roll, pitch and yaw (rad)
@@ -27,8 +28,8 @@ struct AdjustmentNoise {
   Eigen::Vector3d radialWeights() const;
 };
 
-/// Bundle adjustment: moves points, poses and camera corrections to the least robust sum of squared reprojection errors
-/// and deviations from what was given, each in standard deviations. Deterministic.
+/// Bundle adjustment: moves points, poses and camera corrections to the least robust sum of squared errors of
+/// reprojection and depth and deviations from what was given, each in standard deviations. Deterministic.
 /// Throws std::runtime_error when it fails numerically.
 void adjust(Reconstruction& scene, const AdjustmentNoise& noise);
 

@@ -3,11 +3,14 @@
 
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
-#include "reprojection_residual.h"
+#include "measurement_residuals.h"
+#include "sparse_inverse.h"
 
 // With V the information of a point given the poses, W_b the coupling of pose or camera block b to it, and S the
 // information of all blocks with the points eliminated (Schur complement),
@@ -17,6 +20,9 @@ namespace vmcl {
 namespace {
 
 using Block = Eigen::Matrix3d;
+
+/// Square root of the weight of a residual of so many standard deviations in the normal equations.
+double huberWeight(double deviations) { return std::sqrt(std::min(1.0, huber_threshold / deviations)); }
 
 /// A point's part of the normal equations.
 struct PointEquations {
@@ -58,27 +64,46 @@ std::array<int, 5> blocksOf(const Reconstruction& scene, int keyframe) {
   return {keyframe, rotation, rotation + 1, rotation + 2, rotation + 3};
 }
 
-PointEquations linearize(const Reconstruction& scene, const AdjustmentNoise& noise, const ScenePoint& point,
+/// Derivatives of what an observation says, pixel and depth, in standard deviations: by its blocks and last by the
+/// point. Weighted as the robust loss weighs them.
+std::array<Block, 6> derivatives(const Reconstruction& scene, const MeasurementNoise& noise, const Observation& seen,
+                                 const Eigen::Vector3d& point_in_map) {
+  const auto k = static_cast<std::size_t>(seen.keyframe);
+  const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
+  const PlanarPose& pose = scene.map_from_robot[k];
+  const double pose_values[] = {pose.x, pose.y, pose.phi};
+  const CameraCorrection& given = scene.corrections[camera];
+  const MeasuringCamera from{&scene.cameras[camera], &scene.level_from_robot[k]};
+  const double* values[] = {pose_values,       given.rotation.data(), given.shift.data(),
+                            given.lens.data(), given.radial.data(),   point_in_map.data()};
+  const ReprojectionCost reprojection(new ReprojectionResidual{from, scene.distortedPixel(seen), noise.pixel});
+  Eigen::Vector2d pixel_error;
+  std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 6> pixel_by;
+  std::array<double*, 6> pixel_jacobians;
+  for (std::size_t i = 0; i < 6; ++i) pixel_jacobians[i] = pixel_by[i].data();
+  reprojection.Evaluate(values, pixel_error.data(), pixel_jacobians.data());
+  std::array<Block, 6> all;
+  for (std::size_t i = 0; i < 6; ++i)
+    all[i] << huberWeight(pixel_error.norm()) * pixel_by[i], Eigen::RowVector3d::Zero();
+
+  if (const double depth = scene.depth(seen); depth > 0) {
+    const DepthCost cost(new DepthResidual{from, depth, noise.inverse_depth});
+    const std::array<std::size_t, 4> depends_on = {0, 1, 2, 5};
+    const double* depth_values[] = {values[0], values[1], values[2], values[5]};
+    double error = 0;
+    std::array<Eigen::RowVector3d, 4> depth_by;
+    double* depth_jacobians[] = {depth_by[0].data(), depth_by[1].data(), depth_by[2].data(), depth_by[3].data()};
+    cost.Evaluate(depth_values, &error, depth_jacobians);
+    for (std::size_t i = 0; i < 4; ++i) all[depends_on[i]].row(2) = huberWeight(std::abs(error)) * depth_by[i];
+  }
+  return all;
+}
+
+PointEquations linearize(const Reconstruction& scene, const MeasurementNoise& noise, const ScenePoint& point,
                          BlockMatrix& pose_information) {
   PointEquations equations;
   for (const Observation& seen : point.track) {
-    const auto k = static_cast<std::size_t>(seen.keyframe);
-    const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
-    const ReprojectionCost cost(
-        new ReprojectionResidual{&scene.cameras[camera], scene.distortedPixel(seen), noise.pixel});
-    const PlanarPose& pose = scene.map_from_robot[k];
-    const double pose_values[] = {pose.x, pose.y, pose.phi};
-    const CameraCorrection& correction = scene.corrections[camera];
-    const double* values[] = {pose_values,
-                              correction.rotation.data(),
-                              correction.shift.data(),
-                              correction.lens.data(),
-                              correction.radial.data(),
-                              point.point_in_map.data()};
-    Eigen::Vector2d residual;
-    std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 6> J;
-    double* jacobians[] = {J[0].data(), J[1].data(), J[2].data(), J[3].data(), J[4].data(), J[5].data()};
-    cost.Evaluate(values, residual.data(), jacobians);
+    const std::array<Block, 6> J = derivatives(scene, noise, seen, point.point_in_map);
     equations.information += J[5].transpose() * J[5];
     const std::array<int, 5> blocks = blocksOf(scene, seen.keyframe);
     for (std::size_t a = 0; a < 5; ++a) {
@@ -117,26 +142,20 @@ std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const
 
   std::vector<Block> covariances;
   std::vector<PointEquations> equations;
-  std::vector<std::vector<std::size_t>> points_of_block(static_cast<std::size_t>(blocks));
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    equations.push_back(linearize(scene, noise, scene.points[i], pose_information));
+    equations.push_back(linearize(scene, noise.measurement, scene.points[i], pose_information));
     covariances.push_back(eliminate(equations.back(), pose_information));
-    for (const auto& entry : equations.back().coupling)
-      points_of_block[static_cast<std::size_t>(entry.first)].push_back(i);
   }
 
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> pose_solver(pose_information.toSparse());
   if (pose_solver.info() != Eigen::Success || !(pose_solver.vectorD().minCoeff() > 0))
     throw std::runtime_error(
         "the map's covariance cannot be computed: the poses' information is not positive definite");
-  for (int b = 0; b < blocks; ++b) {
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(3 * blocks, 3);
-    unit.middleRows<3>(3 * b).setIdentity();
-    const Eigen::MatrixXd pose_covariance = pose_solver.solve(unit);
-    for (std::size_t i : points_of_block[static_cast<std::size_t>(b)])
-      for (const auto& [a, answer] : equations[i].coupling)
-        covariances[i] += answer * pose_covariance.middleRows<3>(3 * a) * equations[i].coupling.at(b).transpose();
-  }
+  const SparseInverse pose_covariance(pose_solver);
+  for (std::size_t i = 0; i < scene.points.size(); ++i)
+    for (const auto& [a, answer] : equations[i].coupling)
+      for (const auto& [b, other_answer] : equations[i].coupling)
+        covariances[i] += answer * pose_covariance.block(3 * a, 3 * b) * other_answer.transpose();
   for (Block& covariance : covariances) covariance = (covariance + covariance.transpose()).eval() / 2;
   return covariances;
 }

@@ -5,8 +5,8 @@
 
 namespace vmcl {
 
-/// Marginal covariance of every point of an adjusted scene, map frame: pixel noise and what is left uncertain in poses
-/// and mounts (Triggs et al., "Bundle adjustment - a modern synthesis", 2000, section 9).
+/// Marginal covariance of every point of an adjusted scene, map frame: noise of pixels and depths and what is left
+/// uncertain in poses and mounts (Triggs et al., "Bundle adjustment - a modern synthesis", 2000, section 9).
 std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const AdjustmentNoise& noise);
 
 }  // namespace vmcl

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mapping/map_builder.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,7 +8,7 @@
 #include <utility>
 
 #include "feature_check.h"
-#include "landmark_covariance.h"
+#include "map_assembly.h"
 #include "reconstruct.h"
 
 namespace vmcl {
@@ -20,6 +19,26 @@ void require(bool holds, const char* key, double value) {
 }
 
 bool isAtLeast(double value, double bound) { return std::isfinite(value) && value >= bound; }
+
+/// As DenseView keeps it.
+std::vector<uint16_t> sparserDepth(const DepthImage& depth) {
+  std::vector<uint16_t> millimetres;
+  for (int row = 0; row < depth.height; row += DenseView::depth_step)
+    for (int column = 0; column < depth.width; column += DenseView::depth_step) {
+      const float value = 1000 * depth.depths[static_cast<std::size_t>(row * depth.width + column)];
+      millimetres.push_back(value >= 0 && value < 65535 ? static_cast<uint16_t>(std::lround(value)) : 0);
+    }
+  return millimetres;
+}
+
+void checkDepth(const DepthImage& depth, const PinholeCamera& camera) {
+  if (depth.empty()) return;
+  if (depth.width != camera.width || depth.height != camera.height ||
+      std::ssize(depth.depths) != std::ptrdiff_t{camera.width} * camera.height)
+    throw std::invalid_argument("the depth image is " + std::to_string(depth.width) + " x " +
+                                std::to_string(depth.height) + " pixels, its camera " + std::to_string(camera.width) +
+                                " x " + std::to_string(camera.height));
+}
 
 }  // namespace
 
@@ -40,34 +59,38 @@ void MapBuilderOptions::check() const {
 
 struct MapBuilder::State {
   MapBuilderOptions options;
-  std::vector<FeatureExtractor> extractors;              // per camera
-  std::vector<std::optional<PlanarPose>> last_keyframe;  // per camera
+  std::vector<FeatureExtractor> extractors;          // per camera
+  std::vector<std::optional<Rigid3>> last_keyframe;  // per camera
   std::vector<MapCamera> cameras;
   std::vector<Keyframe> keyframes;
+  std::vector<std::vector<float>> depths;  // as in Reconstruction
   int session = 0;
   int frames = 0;
 
-  bool hasMoved(int camera, const PlanarPose& map_from_robot) const {
+  bool hasMoved(int camera, const Rigid3& map_from_robot) const {
     const auto& last = last_keyframe[static_cast<std::size_t>(camera)];
     if (!last) return true;
-    const PlanarPose last_from_robot = inverse(*last) * map_from_robot;
-    return std::hypot(last_from_robot.x, last_from_robot.y) >= options.keyframe_distance ||
-           std::abs(last_from_robot.phi) >= options.keyframe_rotation;
+    const Rigid3 last_from_robot = last->inverse() * map_from_robot;
+    return last_from_robot.translation().norm() >= options.keyframe_distance ||
+           Eigen::AngleAxisd(last_from_robot.linear()).angle() >= options.keyframe_rotation;
   }
 
-  void keep(double time, int camera, const PlanarPose& map_from_robot, FeatureSet features) {
+  void keep(double time, int camera, const Rigid3& map_from_robot, FeatureSet features, std::vector<float> measured) {
     const std::vector<int> no_landmarks(features.pixels.size(), -1);
-    keyframes.push_back({time, camera, session, toRigid3(map_from_robot), std::move(features), no_landmarks});
+    keyframes.push_back({time, camera, session, map_from_robot, std::move(features), no_landmarks});
+    if (std::ranges::none_of(measured, [](float depth) { return depth > 0; })) measured.clear();
+    if (!measured.empty()) cameras[static_cast<std::size_t>(camera)].depth = DepthSource::range;
+    depths.push_back(std::move(measured));
     last_keyframe[static_cast<std::size_t>(camera)] = map_from_robot;
   }
 
-  /// The pose on the ground of a frame worth keeping; nothing for one too near the last keyframe.
-  std::optional<PlanarPose> offer(double time, int camera, const Rigid3& map_from_robot) {
+  /// The pose of a frame worth keeping; nothing for one too near the last keyframe.
+  std::optional<Rigid3> offer(double time, int camera, const Rigid3& map_from_robot) {
     if (!std::isfinite(time)) throw std::invalid_argument("image time is not finite");
     if (camera < 0 || camera >= std::ssize(cameras))
       throw std::invalid_argument("no camera " + std::to_string(camera) + " in the map");
-    const PlanarPose pose = planarPart(map_from_robot);
-    if (!isFinite(pose)) throw std::invalid_argument("robot pose is not finite");
+    if (!map_from_robot.matrix().allFinite()) throw std::invalid_argument("robot pose is not finite");
+    const Rigid3 pose = options.flat ? toRigid3(planarPart(map_from_robot)) : map_from_robot;
     ++frames;
     if (!hasMoved(camera, pose)) return std::nullopt;
     return pose;
@@ -99,106 +122,43 @@ int MapBuilder::addCamera(MapCamera camera) {
   return static_cast<int>(state_->cameras.size()) - 1;
 }
 
-bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image) {
+void MapBuilder::startSession() {
+  if (!state_->keyframes.empty()) ++state_->session;
+  for (auto& last : state_->last_keyframe) last.reset();
+}
+
+bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image,
+                     const DepthImage& depth) {
   const auto pose = state_->offer(time, camera, map_from_robot);
   if (!pose) return false;
   const auto i = static_cast<std::size_t>(camera);
   const MapCamera& taken_by = state_->cameras[i];
-  state_->keep(time, camera, *pose, state_->extractors[i].extract(image, taken_by.calibration, taken_by.mask.view()));
-  if (state_->options.dense) state_->keyframes.back().dense.image = compressImage(image);
+  checkDepth(depth, taken_by.calibration.pinhole);
+  FeatureSet features = state_->extractors[i].extract(image, taken_by.calibration, taken_by.mask.view());
+  std::vector<float> depths;
+  if (!depth.empty())
+    for (const Eigen::Vector2f& pixel : features.pixels)
+      depths.push_back(depthAt(depth, taken_by.calibration.distort(pixel.cast<double>())));
+  state_->keep(time, camera, *pose, std::move(features), std::move(depths));
+  if (state_->options.dense) state_->keyframes.back().dense = {compressImage(image), sparserDepth(depth)};
   return true;
 }
 
-bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features) {
-  checkFeatures(features, state_->options.features.kind, "image at " + std::to_string(time));
+bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features,
+                     std::vector<float> depths) {
+  const std::string name = "image at " + std::to_string(time);
+  checkFeatures(features, state_->options.features.kind, name);
+  if (!depths.empty() && depths.size() != features.pixels.size())
+    throw std::invalid_argument(name + ": not one depth a feature");
+  if (!std::ranges::all_of(depths, [](float depth) { return depth >= 0 && std::isfinite(depth); }))
+    throw std::invalid_argument(name + ": a depth is negative or not finite");
   const auto pose = state_->offer(time, camera, map_from_robot);
   if (!pose) return false;
-  state_->keep(time, camera, *pose, std::move(features));
+  state_->keep(time, camera, *pose, std::move(features), std::move(depths));
   return true;
 }
 
 int MapBuilder::keyframeCount() const { return static_cast<int>(state_->keyframes.size()); }
-
-namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-/// Enters the points whose marginal covariance is sane as landmarks of the map.
-void addLandmarks(KeyframeMap& map, const Reconstruction& scene, const MapBuilderOptions& options) {
-  const std::vector<Eigen::Matrix3d> covariances = pointCovariances(scene, adjustmentNoise(options));
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    const ScenePoint& point = scene.points[i];
-    if (!isWellPlaced({point.point_in_map, covariances[i]}, sightings(scene, point.track))) continue;
-    for (const Observation& seen : point.track)
-      map.keyframes[static_cast<std::size_t>(seen.keyframe)]
-          .landmark_of_feature[static_cast<std::size_t>(seen.feature)] = static_cast<int>(map.landmarks.size());
-    map.landmarks.push_back({point.point_in_map, covariances[i], static_cast<int>(point.track.size())});
-  }
-}
-
-/// Of the keyframes' poses as adjusted against as given, in the robot frame. The priors count as one keyframe more,
-/// which keeps few keyframes from looking exact.
-Eigen::Matrix3d poseCovariance(const Reconstruction& scene, const MapBuilderOptions& options) {
-  const Eigen::Vector3d prior(options.sigma_position, options.sigma_position, options.sigma_heading);
-  Eigen::Matrix3d sum = prior.cwiseAbs2().asDiagonal();
-  for (std::size_t k = 0; k < scene.keyframes.size(); ++k) {
-    const PlanarPose off = inverse(planarPart(scene.keyframes[k].map_from_robot)) * scene.map_from_robot[k];
-    const Eigen::Vector3d error(off.x, off.y, off.phi);
-    sum += error * error.transpose();
-  }
-  return sum / static_cast<double>(scene.keyframes.size());
-}
-
-void addPlaces(KeyframeMap& map, const MapBuilderOptions& options) {
-  std::vector<const FeatureSet*> sets;
-  for (const Keyframe& keyframe : map.keyframes) sets.push_back(&keyframe.features);
-  map.vocabulary = VladVocabulary::train(sets, options.words, options.seed);
-  map.place_descriptors.resize(map.vocabulary.words().size(), std::ssize(sets));
-  for (Eigen::Index i = 0; i < map.place_descriptors.cols(); ++i)
-    map.place_descriptors.col(i) = map.vocabulary.describe(*sets[static_cast<std::size_t>(i)]);
-}
-
-/// Features are kept as ideal pixels of the corrected cameras. Where the corrected distortion has no inverse, far off
-/// the axis, no landmark is seen and the pixel stays.
-void correctPixels(KeyframeMap& map, const Reconstruction& scene) {
-  for (int k = 0; k < std::ssize(map.keyframes); ++k) {
-    Keyframe& keyframe = map.keyframes[static_cast<std::size_t>(k)];
-    const CameraCalibration& calibration = map.cameras[static_cast<std::size_t>(keyframe.camera)].calibration;
-    for (int i = 0; i < keyframe.features.size(); ++i) {
-      const Eigen::Vector2d distorted = scene.distortedPixel({k, i}), ideal = calibration.undistort(distorted);
-      if ((calibration.distort(ideal) - distorted).norm() < 0.1)
-        keyframe.features.pixels[static_cast<std::size_t>(i)] = ideal.cast<float>();
-    }
-  }
-}
-
-MapBuildReport report(const KeyframeMap& map, const Reconstruction& scene, int frames) {
-  MapBuildReport report;
-  report.frames = frames;
-  report.keyframes = static_cast<int>(map.keyframes.size());
-  for (const Keyframe& keyframe : map.keyframes) report.features += keyframe.features.size();
-  report.landmarks = static_cast<int>(map.landmarks.size());
-  for (const Landmark& landmark : map.landmarks) report.mean_observations += landmark.observation_count;
-  report.mean_observations /= std::max(1, report.landmarks);
-  std::vector<double> errors;
-  for (const ScenePoint& point : scene.points)
-    for (const Sighting& seen : sightings(scene, point.track))
-      errors.push_back(reprojectionError(seen, point.point_in_map));
-  report.median_reprojection_px = median(std::move(errors));
-  for (const CameraCorrection& correction : scene.corrections) {
-    report.mount_correction.push_back(correction.rotation);
-    report.mount_shift.push_back(correction.shift);
-    report.focal_scale.push_back(1 + correction.lens[0]);
-  }
-  return report;
-}
-
-}  // namespace
 
 std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& progress) {
   if (state_->keyframes.empty()) throw std::runtime_error("no keyframes to build a map of");
@@ -208,30 +168,20 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   scene.cameras = state_->cameras;
   scene.corrections.resize(scene.cameras.size());
   scene.keyframes = std::exchange(state_->keyframes, {});
-  for (const Keyframe& keyframe : scene.keyframes) scene.map_from_robot.push_back(planarPart(keyframe.map_from_robot));
+  scene.depths = std::exchange(state_->depths, {});
+  for (const Keyframe& keyframe : scene.keyframes) {
+    scene.map_from_robot.push_back(planarPart(keyframe.map_from_robot));
+    scene.level_from_robot.push_back(toRigid3(scene.map_from_robot.back()).inverse() * keyframe.map_from_robot);
+  }
   if (std::ranges::all_of(scene.keyframes, [](const Keyframe& keyframe) { return keyframe.features.size() == 0; }))
     throw std::runtime_error("no features in any image: blank or covered by the mask");
-  reconstruct(scene, options, report_progress);
+  ReconstructionResult result = reconstruct(scene, options, report_progress);
 
   report_progress("describing places", 0);
-  KeyframeMap map;
-  map.feature_options = options.features;
-  map.cameras = scene.cameras;
-  for (int i = 0; i < std::ssize(map.cameras); ++i) {
-    MapCamera& camera = map.cameras[static_cast<std::size_t>(i)];
-    camera.calibration = scene.calibration(i);
-    camera.robot_from_camera = scene.robotFromCamera(i);
-  }
-  map.keyframes = scene.keyframes;
-  for (std::size_t k = 0; k < map.keyframes.size(); ++k)
-    map.keyframes[k].map_from_robot = toRigid3(scene.map_from_robot[k]);
-  correctPixels(map, scene);
-  addLandmarks(map, scene, options);
-  map.pose_covariance = poseCovariance(scene, options);
-  addPlaces(map, options);
+  KeyframeMap map = assembleMap(scene, result, options);
   report_progress("describing places", 1);
-  map.check();
-  MapBuildReport built = report(map, scene, state_->frames);
+  MapBuildReport built = reportOf(map, scene, result);
+  built.frames = state_->frames;
   return {std::move(map), std::move(built)};
 }
 

@@ -2,8 +2,11 @@
 #include "reconstruct.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
 #include "keyframe_pairs.h"
+#include "noise_estimate.h"
 #include "pose_uncertainty.h"
 #include "tracks.h"
 
@@ -70,42 +73,81 @@ std::vector<ObservationMatch> consistentMatches(const Reconstruction& scene, std
 
 /// How far an observation lies from where the point should be seen, in standard deviations.
 double deviation(const Sighting& sighting, const Eigen::Vector3d& point_in_map, const PoseUncertainty& poses,
-                 double sigma_px) {
-  const double depth = std::max(nearest_scene, (sighting.view.map_from_camera.inverse() * point_in_map).z());
-  const double sigma = std::hypot(sigma_px, sighting.view.camera.fx * poses.ofDirection(depth, usual_spread));
-  return reprojectionError(sighting, point_in_map) / sigma;
+                 const MeasurementNoise& noise) {
+  const double z = (sighting.view.map_from_camera.inverse() * point_in_map).z();
+  const double direction = poses.ofDirection(std::max(nearest_scene, z), usual_spread);
+  const double of_pixel =
+      reprojectionError(sighting, point_in_map) / std::hypot(noise.pixel, sighting.view.camera.fx * direction);
+  if (!(sighting.depth > 0)) return of_pixel;
+  const double of_depth = std::abs(1 / z - 1 / sighting.depth) /
+                          std::hypot(noise.inverse_depth, poses.position / (sighting.depth * sighting.depth));
+  return z > 0 ? std::max(of_pixel, of_depth) : of_pixel;
 }
 
-/// Triangulates the track, leaving out one after the other the observation that fits worst.
+/// Whether there are enough observations to tell a wrong one.
+bool isSupported(std::span<const Sighting> seen) {
+  return std::ssize(seen) >= min_observations ||
+         (seen.size() >= 2 && std::ranges::any_of(seen, [](const Sighting& sighting) { return sighting.depth > 0; }));
+}
+
+/// Triangulates the track, leaving out one after the other the observation that fits worst; counts what becomes of it.
 std::optional<ScenePoint> placeTrack(const Reconstruction& scene, Track track, const PoseUncertainty& poses,
-                                     double sigma_px) {
-  for (auto seen = sightings(scene, track); std::ssize(track) >= min_observations;) {
-    const auto point = triangulate(seen, sigma_px);
-    if (!point) return std::nullopt;
+                                     const MeasurementNoise& noise, TrackCounts& counts) {
+  for (auto seen = sightings(scene, track); isSupported(seen);) {
+    const auto [point, failure] = triangulate(seen, noise);
+    if (failure != TriangulationFailure::none) {
+      ++(failure == TriangulationFailure::behind_a_view ? counts.behind : counts.parallax);
+      return std::nullopt;
+    }
     std::vector<double> deviations;
-    for (const Sighting& sighting : seen)
-      deviations.push_back(deviation(sighting, point->point_in_map, poses, sigma_px));
+    for (const Sighting& sighting : seen) deviations.push_back(deviation(sighting, point.point_in_map, poses, noise));
     const auto worst = std::ranges::max_element(deviations) - deviations.begin();
     if (deviations[static_cast<std::size_t>(worst)] < gate) {
-      if (!isWellPlaced(*point, seen)) return std::nullopt;
-      return ScenePoint{point->point_in_map, std::move(track)};
+      if (isWellPlaced(point, seen)) return ScenePoint{point.point_in_map, std::move(track)};
+      ++counts.parallax;
+      return std::nullopt;
     }
     track.erase(track.begin() + worst);
     seen.erase(seen.begin() + worst);
   }
+  ++counts.reprojection;
   return std::nullopt;
 }
 
-void placeTracks(Reconstruction& scene, std::vector<Track> tracks, const PoseUncertainty& poses, double sigma_px) {
+void placeTracks(Reconstruction& scene, std::vector<Track> tracks, const PoseUncertainty& poses,
+                 const MeasurementNoise& noise, TrackCounts& counts) {
   scene.points.clear();
   for (Track& track : tracks)
-    if (auto point = placeTrack(scene, std::move(track), poses, sigma_px)) scene.points.push_back(std::move(*point));
+    if (auto point = placeTrack(scene, std::move(track), poses, noise, counts))
+      scene.points.push_back(std::move(*point));
+}
+
+/// Points of the features with a measured depth that no track has. They move no pose, so that no adjustment needs them.
+void addPointsSeenOnce(Reconstruction& scene, const MeasurementNoise& noise, TrackCounts& counts) {
+  std::set<std::pair<int, int>> tracked;
+  for (const ScenePoint& point : scene.points)
+    for (const Observation& seen : point.track) tracked.emplace(seen.keyframe, seen.feature);
+  for (int k = 0; k < std::ssize(scene.keyframes); ++k)
+    for (int i = 0; i < scene.keyframes[static_cast<std::size_t>(k)].features.size(); ++i) {
+      if (!(scene.depth({k, i}) > 0) || tracked.contains({k, i})) continue;
+      const Track once = {{k, i}};
+      const auto seen = sightings(scene, once);
+      const auto [point, failure] = triangulate(seen, noise);
+      if (failure != TriangulationFailure::none || !isWellPlaced(point, seen)) continue;
+      scene.points.push_back({point.point_in_map, once});
+      ++counts.seen_once;
+    }
 }
 
 std::vector<Track> tracksOf(std::vector<ScenePoint> points) {
   std::vector<Track> tracks;
   for (ScenePoint& point : points) tracks.push_back(std::move(point.track));
   return tracks;
+}
+
+AdjustmentNoise firstNoise(const MapBuilderOptions& options) {
+  return {{.pixel = options.sigma_px}, options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
+          options.sigma_mount_shift,   options.sigma_focal,    options.sigma_radial};
 }
 
 std::vector<int> featureCounts(const Reconstruction& scene) {
@@ -116,29 +158,35 @@ std::vector<int> featureCounts(const Reconstruction& scene) {
 
 }  // namespace
 
-AdjustmentNoise adjustmentNoise(const MapBuilderOptions& options) {
-  return {options.sigma_px,          options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
-          options.sigma_mount_shift, options.sigma_focal,    options.sigma_radial};
-}
-
-void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const BuildProgress& progress) {
+ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions& options,
+                                 const BuildProgress& progress) {
   const std::vector<MatchedPair> pairs = matchPairs(scene, options, progress);
+  ReconstructionResult result{firstNoise(options), {}};
+  MeasurementNoise& noise = result.noise.measurement;
+  const bool has_depth = std::ranges::any_of(scene.depths, [](const auto& depths) { return !depths.empty(); });
+  const int min_track_length = has_depth ? 2 : min_observations;
   double done = 0;
   for (double share : rounds) {
     progress("adjusting", done++ / std::ssize(rounds));
     const PoseUncertainty poses = uncertainty(options, share);
-    auto matches = consistentMatches(scene, pairs, poses, options.sigma_px);
-    placeTracks(scene, joinTracks(featureCounts(scene), std::move(matches), min_observations), poses, options.sigma_px);
-    adjust(scene, adjustmentNoise(options));
+    std::vector<Track> tracks =
+        joinTracks(featureCounts(scene), consistentMatches(scene, pairs, poses, noise.pixel), min_track_length);
+    result.tracks = {.seen = static_cast<int>(tracks.size())};
+    placeTracks(scene, std::move(tracks), poses, noise, result.tracks);
+    adjust(scene, result.noise);
+    noise = estimatedNoise(scene, noise);
   }
-  placeTracks(scene, tracksOf(std::move(scene.points)), {}, options.sigma_px);
-  adjust(scene, adjustmentNoise(options));
+  placeTracks(scene, tracksOf(std::move(scene.points)), {}, noise, result.tracks);
+  adjust(scene, result.noise);
+  noise = estimatedNoise(scene, noise);
+  addPointsSeenOnce(scene, noise, result.tracks);
+  return result;
 }
 
 std::vector<Sighting> sightings(const Reconstruction& scene, const Track& track) {
   std::vector<Sighting> seen;
   for (const Observation& observation : track)
-    seen.push_back({scene.view(observation.keyframe), scene.idealPixel(observation)});
+    seen.push_back({scene.view(observation.keyframe), scene.idealPixel(observation), scene.depth(observation)});
   return seen;
 }
 

@@ -8,15 +8,20 @@
 
 namespace vmcl {
 
-/// Fewest keyframes that a landmark is seen from: with two, a false match along the epipolar line goes unnoticed.
+/// Fewest keyframes that a landmark without measured depth is seen from: with two, a false match along the epipolar
+/// line goes unnoticed.
 inline constexpr int min_observations = 3;
 
-/// Standard deviations that the adjustment weighs, from the builder's options.
-AdjustmentNoise adjustmentNoise(const MapBuilderOptions& options);
+struct ReconstructionResult {
+  AdjustmentNoise noise;  ///< with the measurements' as estimated
+  TrackCounts tracks;     ///< `covariance` is left to the caller
+};
 
 /// Matches overlapping keyframes, joins the matches to tracks, triangulates them and adjusts everything. Done in
-/// rounds: as poses and mounts get better, what does not fit them is told apart more sharply.
-void reconstruct(Reconstruction& scene, const MapBuilderOptions& options, const BuildProgress& progress);
+/// rounds: as poses and mounts get better, what does not fit them is told apart more sharply. At last every feature
+/// with a measured depth that no track has becomes a point, seen once.
+ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions& options,
+                                 const BuildProgress& progress);
 
 /// The observations of a track with their views as they are now thought to be.
 std::vector<Sighting> sightings(const Reconstruction& scene, const Track& track);

@@ -46,7 +46,10 @@ struct Reconstruction {
   std::vector<MapCamera> cameras;             ///< as given
   std::vector<CameraCorrection> corrections;  ///< per camera
   std::vector<Keyframe> keyframes;            ///< with the poses as given
+  std::vector<std::vector<float>> depths;     ///< per keyframe: of each feature along the axis (m), 0 where it was not
+                                              ///< measured; empty where no feature's was
   std::vector<PlanarPose> map_from_robot;     ///< per keyframe
+  std::vector<Rigid3> level_from_robot;       ///< per keyframe: height, roll and pitch as given, over the planar pose
   std::vector<ScenePoint> points;
 
   Rigid3 robotFromCamera(int camera) const {
@@ -57,12 +60,22 @@ struct Reconstruction {
     return corrected;
   }
 
+  Rigid3 pose(int keyframe) const {
+    const auto k = static_cast<std::size_t>(keyframe);
+    return toRigid3(map_from_robot[k]) * level_from_robot[k];
+  }
+
   CameraCalibration calibration(int camera) const;
 
   ReferenceCamera view(int keyframe) const {
-    const auto k = static_cast<std::size_t>(keyframe);
-    const int camera = keyframes[k].camera;
-    return {calibration(camera).pinhole, toRigid3(map_from_robot[k]) * robotFromCamera(camera)};
+    const int camera = keyframes[static_cast<std::size_t>(keyframe)].camera;
+    return {calibration(camera).pinhole, pose(keyframe) * robotFromCamera(camera)};
+  }
+
+  /// As measured along the optical axis (m); 0 where it was not.
+  double depth(const Observation& observation) const {
+    const std::vector<float>& of_keyframe = depths[static_cast<std::size_t>(observation.keyframe)];
+    return of_keyframe.empty() ? 0 : of_keyframe[static_cast<std::size_t>(observation.feature)];
   }
 
   /// Pixel of the camera as it was given, without its distortion: as features are.

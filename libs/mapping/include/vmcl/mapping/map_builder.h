@@ -6,6 +6,7 @@
 #include <string>
 
 #include "vmcl/mapping/keyframe_map.h"
+#include "vmcl/vision/depth_image.h"
 #include "vmcl/vision/feature_matching.h"
 #include "vmcl/vision/image.h"
 
@@ -16,19 +17,32 @@ struct MapBuilderOptions {
   MatchingOptions matching;
   double keyframe_distance = 0.10;  ///< a new keyframe after this way (m)
   double keyframe_rotation = 0.09;  ///< or this turn (rad)
-  double sigma_px = 1.0;            ///< standard deviation of a feature's position
-  double sigma_position = 0.02;     ///< prior of the given robot positions (m)
-  double sigma_heading = 0.01;      ///< prior of the given robot headings (rad)
-  double sigma_mount_tilt = 0.05;   ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
-  double sigma_mount_shift = 0.0;   ///< prior of the given mount's x and y (m); 0: exact
-  double sigma_focal = 0.03;        ///< prior of the given focal lengths, relative; 0: exact
-  double sigma_radial = 0.1;        ///< prior of the given radial distortion k1 and k2; 0: exact
-  int words = 64;                   ///< vocabulary of place recognition
-  bool dense = false;               ///< keep the images, so that queries can be matched all over them
+  bool flat = true;              ///< the robot stands level at height 0; else on the heights, rolls and pitches of the
+                                 ///< given poses, which count as exact
+  double sigma_px = 1.0;         ///< first guess at the standard deviation of a feature's position; residuals tell it
+  double sigma_position = 0.02;  ///< prior of the given robot positions (m)
+  double sigma_heading = 0.01;   ///< prior of the given robot headings (rad)
+  double sigma_mount_tilt = 0.05;  ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
+  double sigma_mount_shift = 0.0;  ///< prior of the given mount's x and y (m); 0: exact
+  double sigma_focal = 0.03;       ///< prior of the given focal lengths, relative; 0: exact
+  double sigma_radial = 0.1;       ///< prior of the given radial distortion k1 and k2; 0: exact
+  int words = 64;                  ///< vocabulary of place recognition
+  bool dense = false;              ///< keep the images, so that queries can be matched all over them
   uint64_t seed = 1;
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
+};
+
+/// What became of the tracks, that is features of several keyframes taken for one scene point. Each of `seen` is either
+/// a landmark or counted under the one reason why it is none.
+struct TrackCounts {
+  int seen = 0;
+  int parallax = 0;      ///< seen from directions too much alike to place it
+  int behind = 0;        ///< placed behind a camera
+  int reprojection = 0;  ///< too few observations agree with each other
+  int covariance = 0;    ///< uncertain after the adjustment by over a third of its distance
+  int seen_once = 0;     ///< beside the tracks: points of one keyframe, placed by their measured depth
 };
 
 /// What building did, for people.
@@ -37,7 +51,10 @@ struct MapBuildReport {
   int keyframes = 0;
   int features = 0;
   int landmarks = 0;
-  double mean_observations = 0;                   ///< per landmark
+  TrackCounts tracks;
+  double mean_observations = 0;                   ///< per landmark seen more than once
+  double sigma_px = 0;                            ///< standard deviation of a feature's coordinate, as estimated
+  double sigma_depth = 0;                         ///< and of a measured depth at 1 m; 0: there is none
   double median_reprojection_px = 0;              ///< after adjustment
   std::vector<Eigen::Vector3d> mount_correction;  ///< per camera: roll, pitch, yaw turned about the robot axes (rad)
   std::vector<Eigen::Vector3d> mount_shift;       ///< per camera: along the robot axes (m)
@@ -48,8 +65,8 @@ struct MapBuildReport {
 using BuildProgress = std::function<void(std::string_view stage, double share)>;
 
 /// Builds a map from posed images: keyframes by motion, tracks over keyframes that look at the same place,
-/// triangulation, adjustment of landmarks, poses (under their priors) and the mount's tilt, landmark covariances,
-/// vocabulary and place descriptors. Deterministic.
+/// triangulation, adjustment of landmarks, poses (under their priors) and the mount's tilt, the noise of features and
+/// of measured depths, landmark covariances, vocabulary and place descriptors. Deterministic.
 class MapBuilder {
  public:
   /// Throws std::invalid_argument for bad options or a bad camera.
@@ -61,12 +78,17 @@ class MapBuilder {
   /// bad camera.
   int addCamera(MapCamera camera);
 
-  /// Offers an image taken at `time` (s) by camera `camera` with the robot at map_from_robot. Returns whether it was
-  /// taken as a keyframe. Throws std::invalid_argument for a bad image size, index or pose.
-  bool add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image);
+  /// What comes now was recorded on another drive.
+  void startSession();
 
-  /// The same with features found elsewhere. Throws std::invalid_argument for features of another kind, too.
-  bool add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features);
+  /// Offers an image taken at `time` (s) by camera `camera` with the robot at map_from_robot. Returns whether it was
+  /// taken as a keyframe. `depth` is what a range camera or stereo measured in the image; empty: nothing. Throws
+  /// std::invalid_argument for a bad image or depth size, index or pose.
+  bool add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image, const DepthImage& depth = {});
+
+  /// The same with features found elsewhere, and the measured depth of each (m, 0: none) or none at all. Throws
+  /// std::invalid_argument for features of another kind and another number of depths, too.
+  bool add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features, std::vector<float> depths = {});
 
   int keyframeCount() const;
 
