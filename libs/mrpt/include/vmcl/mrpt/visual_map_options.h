@@ -26,7 +26,7 @@ struct VisualMapOptions {
                                  ///< not look in <rawlog>_Images; sets MRPT's process-wide base directory of images
   std::string match_directory;   ///< [.._creationOpts] keeps the matches of images, for other runs on the same log and
                                  ///< map, with the same options; empty: none
-  double particle_sigma_px = 4;  ///< [.._likelihoodOpts] pixel noise when particles are weighed
+  double particle_sigma_px = 5;  ///< [.._likelihoodOpts] pixel noise when particles are weighed
   double match_weight = 0.04;    ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
                                    ///< sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations, max_modes
