@@ -12,7 +12,7 @@ namespace vmcl {
 namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
-constexpr double right_angle = std::numbers::pi / 2;
+constexpr double quarter_turn = std::numbers::pi / 2;
 
 mrpt::img::TCamera camera(int columns, int rows, double focal) {
   mrpt::img::TCamera camera;
@@ -27,7 +27,7 @@ CObservation3DRangeScan wall() {
   CObservation3DRangeScan scan;
   scan.sensorLabel = "depth";
   scan.cameraParams = scan.cameraParamsIntensity = camera(8, 6, 10);
-  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, 0, 0, -right_angle, 0, -right_angle);
+  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, 0, 0, -quarter_turn, 0, -quarter_turn);
   scan.range_is_depth = true;
   scan.rangeUnits = 0.0002F;
   scan.hasRangeImage = true;
@@ -56,11 +56,11 @@ TEST(MeasuredDepth, RangesAlongTheRayBecomeDepth) {
 TEST(MeasuredDepth, MovesToTheCameraThatTookTheImage) {
   CObservation3DRangeScan scan = wall();
   scan.cameraParamsIntensity = camera(16, 12, 20);
-  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0.5, 0, 0, -right_angle, 0, -right_angle);
+  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0.5, 0, 0, -quarter_turn, 0, -quarter_turn);
   const DepthImage depth = measuredDepth(scan, {});
   EXPECT_EQ(depth.width, 16);
   EXPECT_NEAR(depth.depths[6 * 16 + 8], 1.5, 1e-6);
-  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(3, 0, 0, -right_angle, 0, -right_angle);
+  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(3, 0, 0, -quarter_turn, 0, -quarter_turn);
   for (float behind : measuredDepth(scan, {}).depths) EXPECT_EQ(behind, 0);
 }
 

@@ -7,7 +7,7 @@
 
 namespace vmcl {
 
-inline constexpr double min_depth = 1e-3;  ///< m; a point driven behind the camera stays there and is culled
+inline constexpr double nearest_depth = 1e-3;  ///< m; a point driven behind the camera stays there and is culled
 
 /// Whence a measurement was taken, as given.
 struct MeasuringCamera {
@@ -46,7 +46,7 @@ struct ReprojectionResidual {
                   const T* radial, const T* point_in_map, T* residual) const {
     const Eigen::Matrix<T, 3, 1> p = pointInCamera(from, map_from_robot, mount_rotation, mount_shift, point_in_map);
     const PinholeCamera& pinhole = from.camera->calibration.pinhole;
-    const T depth = p.z() > min_depth ? p.z() : T(min_depth);
+    const T depth = p.z() > nearest_depth ? p.z() : T(nearest_depth);
     const T focal_scale = 1.0 + lens[0];
     const Eigen::Matrix<T, 2, 1> bent = distorted<T>({p.x() / depth, p.y() / depth}, radial);
     residual[0] = (focal_scale * pinhole.fx * bent.x() + pinhole.cx + lens[1] - pixel.x()) / sigma_px;
@@ -77,7 +77,7 @@ struct DepthResidual {
   bool operator()(const T* map_from_robot, const T* mount_rotation, const T* mount_shift, const T* point_in_map,
                   T* residual) const {
     const auto p = pointInCamera(from, map_from_robot, mount_rotation, mount_shift, point_in_map);
-    residual[0] = (1.0 / (p.z() > min_depth ? p.z() : T(min_depth)) - 1 / depth) / sigma;
+    residual[0] = (1.0 / (p.z() > nearest_depth ? p.z() : T(nearest_depth)) - 1 / depth) / sigma;
     return true;
   }
 };

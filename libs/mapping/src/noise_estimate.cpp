@@ -12,7 +12,7 @@ constexpr std::size_t fewest_residuals = 100;   // whose median tells a standard
 constexpr double least_pixel = 0.05;            // what is left by rounding must not
 constexpr double least_inverse_depth = 0.0005;  // look exact (1/m)
 
-double median(std::vector<double> values) {
+double medianOf(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::ranges::nth_element(values, middle);
   return *middle;
@@ -44,9 +44,9 @@ MeasurementNoise estimatedNoise(const Reconstruction& scene, const MeasurementNo
   // The median of a chi-square of 2 degrees of freedom is 2 ln 2, that of one 0.4549.
   MeasurementNoise noise = assumed;
   if (squared_pixels.size() >= fewest_residuals)
-    noise.pixel = std::max(least_pixel, std::sqrt(median(squared_pixels) / (2 * std::numbers::ln2)));
+    noise.pixel = std::max(least_pixel, std::sqrt(medianOf(squared_pixels) / (2 * std::numbers::ln2)));
   if (squared_depths.size() >= fewest_residuals)
-    noise.inverse_depth = std::max(least_inverse_depth, std::sqrt(median(squared_depths) / 0.4549));
+    noise.inverse_depth = std::max(least_inverse_depth, std::sqrt(medianOf(squared_depths) / 0.4549));
   return noise;
 }
 
