@@ -4,6 +4,8 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "coverage.h"
@@ -28,12 +30,12 @@ class Gaps {
   bool contain(const RawlogEntry& entry, Localizer& localizer) {
     const auto time = timeOf(entry);
     if (!time) return false;
-    if (!first_) first_ = time;
+    if (std::isnan(first_)) first_ = *time;
     if (replay_.kidnapping && !kidnapped_) {
       const double from = *time + replay_.kidnapping->at;
       kidnapped_ = Kidnapped{from, from + replay_.kidnapping->skip};
     }
-    if (*time < *first_ + replay_.skipped || *time < replay_.begin) return true;
+    if (*time < first_ + replay_.skipped || *time < replay_.begin) return true;
     if (!kidnapped_ || *time < kidnapped_->from || *time >= kidnapped_->until) return false;
     localizer.kidnap();
     return true;
@@ -43,7 +45,7 @@ class Gaps {
 
  private:
   const Replay& replay_;
-  std::optional<double> first_;  ///< time of the log's first step
+  double first_ = std::numeric_limits<double>::quiet_NaN();  ///< time of the log's first step
   std::optional<Kidnapped> kidnapped_;
 };
 

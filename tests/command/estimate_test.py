@@ -66,6 +66,32 @@ class EstimateTest(CommandTest):
         self.assertEqual(self.succeed('estimate', '--seed', 7, stdin=problems), once)
         self.assertEqual(self.succeed('estimate', '--seed', 7, '--threads', 2, stdin=problems), once)
 
+    def test_motion_off_the_plane(self):
+        lifted = problem('a', (0.3, -0.2, 0.1))
+        for match in lifted['matches']:
+            if 'point' in match:
+                match['point'][2] += 0.5
+        lifted['reference_cameras'][0]['map_from_camera'] = ROBOT_FROM_CAMERA[:11] + [0.5]
+        answer = json.loads(self.succeed('estimate', '--motion', 'upright', stdin=lines(lifted)))
+        self.assertEqual(answer['solver'], '2dp')
+        for found, true in zip(answer['robot_in_map'] + answer['off_plane'], [0.3, -0.2, 0.1, 0, 0, 0.5]):
+            self.assertAlmostEqual(found, true, delta=0.15)
+        answer = json.loads(self.succeed('estimate', '--motion', 'free', stdin=lines(lifted)))
+        self.assertEqual(answer['solver'], '3dp')
+        self.assert_refused(['estimate', '--motion', 'magic'], 'motion')
+        self.assert_refused(['estimate', '--motion', 'free', '--solver', '2dp'], 'solver')
+
+    def test_bearings_alone(self):
+        answer = json.loads(self.succeed('estimate', '--solver', '3b', stdin=lines(problem('a', (0.3, -0.2, 0.1)))))
+        self.assertEqual(answer['solver'], '3b')
+        self.assertEqual(answer['off_plane'], [0, 0, 0])
+
+    def test_line_with_odds_out_of_range(self):
+        for odds in 0, 1e9, 'x':
+            bad = problem('bad', (0, 0.5, 0))
+            bad['matches'][3]['inlier_odds'] = odds
+            self.assert_bad_line(json.dumps(bad), 'match 3', 'inlier')
+
     def test_no_pose_is_an_answer(self):
         empty = {**problem('empty', (0, 0, 0)), 'matches': []}
         answer = json.loads(self.succeed('estimate', stdin=lines(empty)))

@@ -100,8 +100,10 @@ class LocalizeLaserTest(CommandTest):
 
     def test_output_that_cannot_be_written(self):
         self.write('taken', '')
-        self.assert_complaint(self.vmcl('localize', INI, '--rawlog', LOG, '--map', MAP, '--out', 'taken'), FAILED, 'taken')
-        self.assert_refused(['localize', INI, '--map', MAP, '--rawlog', 'nowhere.rawlog', '--out', 'new/out'], 'nowhere')
+        taken = self.vmcl('localize', INI, '--rawlog', LOG, '--map', MAP, '--out', 'taken')
+        self.assert_complaint(taken, FAILED, 'taken')
+        absent = ['localize', INI, '--map', MAP, '--rawlog', 'nowhere.rawlog', '--out', 'new/out']
+        self.assert_refused(absent, 'nowhere')
 
 
 if __name__ == '__main__':

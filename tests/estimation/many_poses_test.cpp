@@ -115,7 +115,6 @@ TEST_P(ManyPoses, AgreeWithOneByOne) {
   }
 }
 
-// Several references for one query camera, and matches of one camera of the robot with the reference of another.
 TEST_P(ManyPoses, AnyOdds) {
   Random random(59);
   Scene scene = randomScene(random, {.matches = 100, .outlier_rate = 0.5, .noise_px = 2, .point_sigma = 0.02});
@@ -123,6 +122,7 @@ TEST_P(ManyPoses, AnyOdds) {
   expectSameAsOneByOne(PoseLikelihood(scene.problem, {}), posesAround(scene.map_from_robot, random, 50));
 }
 
+// Several references for one query camera, and matches of one camera of the robot with the reference of another.
 TEST_P(ManyPoses, AnyPairOfCameras) {
   Random random(52);
   for (int trial = 0; trial < 20; ++trial) {

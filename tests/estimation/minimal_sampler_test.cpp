@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "random_scene.h"
@@ -90,24 +91,49 @@ TEST(MinimalSampler, FirstSamplesAreOfAllMatches) {
   EXPECT_GT(right, 10);  // 32 expected: fewer would be a false alarm in 100,000
 }
 
-// Four odds where it is right, a quarter where it is wrong: at 80 % outliers 2DP samples are right 1 in 4, not 1 in 25.
-TEST(MinimalSampler, DrawsLikelyInliersMoreOften) {
-  Random random(96);
-  Scene scene = randomScene(random, {.matches = 200, .outlier_rate = 0.8, .depth_rate = 1});
+/// Sets odds of all matches by whether they are inliers; returns the inliers.
+std::vector<int> setOdds(Scene& scene, double of_inliers, double of_outliers) {
   std::vector<int> inliers;
   for (std::size_t i = 0; i < scene.inlier.size(); ++i) {
-    scene.problem.matches[i].inlier_odds = scene.inlier[i] ? 4 : 0.25;
+    scene.problem.matches[i].inlier_odds = scene.inlier[i] ? of_inliers : of_outliers;
     if (scene.inlier[i]) inliers.push_back(static_cast<int>(i));
   }
-  MinimalSampler sampler(scene.problem, 0.2, 1);
-  std::vector<PlanarTransform> poses;
-  sampler.draw(Solver::two_depth, 1000, poses);
-  const auto right = std::count_if(poses.begin(), poses.end(), [&](const PlanarTransform& pose) {
-    return difference(pose.pose(), scene.map_from_robot).norm() < 1e-6;
-  });
-  const double expected = 1000 * sampler.chanceOfInliers(Solver::two_depth, inliers);
-  EXPECT_GT(expected, 200);
-  EXPECT_NEAR(static_cast<double>(right), expected, 0.25 * expected);  // over 4 standard deviations: 1 in 10,000
+  return inliers;
+}
+
+// As often as the sampler claims, which its stopping rule rests on: extreme odds and all kinds.
+TEST(MinimalSampler, DrawsLikelyInliersMoreOften) {
+  Random random(96);
+  for (const double odds : {3.0, 30.0, 1000.0}) {
+    Scene scene = randomScene(random, {.cameras = 2, .matches = 200, .outlier_rate = 0.9, .depth_rate = 0.6});
+    const std::vector<int> inliers = setOdds(scene, odds, 1 / odds);
+    for (const Solver kind : {Solver::two_depth, Solver::three_bearings, Solver::one_point_one_depth}) {
+      MinimalSampler sampler(scene.problem, 0.2, 1);
+      constexpr int samples = 3000;
+      int right = 0;
+      for (int i = 0; i < samples; ++i) {
+        std::vector<PlanarTransform> poses;
+        sampler.draw(kind, 1, poses);
+        right += std::ranges::any_of(poses, [&](const PlanarTransform& pose) {
+          return difference(pose.pose(), scene.map_from_robot).norm() < 1e-4;
+        });
+      }
+      const double chance = sampler.chanceOfInliers(kind, inliers);
+      EXPECT_GT(chance, odds == 3 ? 0.04 : 0.6);
+      // The claim allows a match twice: 3 % more or less. Beside it 4.5 standard deviations, 1 in 100,000.
+      EXPECT_NEAR(right, samples * chance, 4.5 * std::sqrt(samples * chance * (1 - chance)) + 0.03 * samples)
+          << "odds " << odds << ", kind " << nameOf(kind);
+    }
+  }
+}
+
+TEST(MinimalSampler, TriesAllOfFewWhateverTheirOdds) {
+  Random random(97);
+  Scene scene = randomScene(random, {.matches = 6, .depth_rate = 1});
+  setOdds(scene, 1, 1);
+  const auto all = allPoses(scene.problem, Solver::two_depth, 1);
+  scene.problem.matches[0].inlier_odds = 1e-3;
+  EXPECT_EQ(allPoses(scene.problem, Solver::two_depth, 1).size(), all.size());
 }
 
 }  // namespace

@@ -20,6 +20,12 @@ TEST(PoseMixture, DifferenceWrapsTheAngle) {
   EXPECT_NEAR(difference({0, 0, -3.1}, {0, 0, 3.1}).z(), 2 * M_PI - 6.2, 1e-12);
 }
 
+TEST(PoseMixture, FloorsAreTwoPlaces) {
+  PoseMode upstairs = mode(1, 11);
+  upstairs.height = 3;
+  EXPECT_EQ(mergeModes({mode(1, 10), upstairs}, 5).size(), 2u);
+}
+
 TEST(PoseMixture, AnyPeakCountsOnce) {
   const auto merged = mergeModes({mode(1, 10), mode(1.002, 12), mode(5, 11)}, 5);
   ASSERT_EQ(merged.size(), 2u);

@@ -150,6 +150,33 @@ TEST(PoseRefiner, RefusesBadPriors) {
   EXPECT_THROW(SoftPlane({.sigma_tilt = 0, .sigma_height = NAN}).check(), std::invalid_argument);
 }
 
+// Odds of 0.15 on all matches, half of them right: of such odds a share of 0.87 is a half.
+TEST(PoseRefiner, TheInlierRateIsThatOfMatchesOfOddsOne) {
+  Random random(98);
+  Scene scene = randomScene(random, {.matches = 2000, .outlier_rate = 0.5, .noise_px = 1});
+  const auto rateWithOdds = [&](double odds) {
+    for (Match& match : scene.problem.matches) match.inlier_odds = odds;
+    const PoseLikelihood likelihood(scene.problem, {.sigma_px = 1, .inlier_prior = 0.8});
+    const PoseRefiner refiner(likelihood, {});
+    const RefinedPose peak = refiner.refine(PlanarTransform(scene.map_from_robot));
+    EXPECT_NEAR(refiner.linearize(peak).log_likelihood, likelihood(peak.rigid()), 1e-6);
+    return refiner.inlierRate(peak, 0.8);
+  };
+  // The share drawn is 0.5 within 0.011; four times that, 1 in 10,000.
+  EXPECT_NEAR(rateWithOdds(1), 0.5, 0.05);
+  EXPECT_NEAR(rateWithOdds(0.15), 0.87, 0.03);
+}
+
+TEST(PoseRefiner, APoseIsTheOneMadeOfItsMatrix) {
+  RefinedPose pose;
+  pose.map_from_robot = {1, -2, 2.5};
+  pose.roll = -0.4;
+  pose.pitch = 0.7;
+  pose.height = 0.3;
+  EXPECT_TRUE(RefinedPose::at(pose.rigid()).rigid().isApprox(pose.rigid(), 1e-12));
+  EXPECT_NEAR(RefinedPose::at(pose.rigid()).pitch, 0.7, 1e-12);
+}
+
 // Also where numbers do not fit single precision.
 TEST(PoseRefiner, ClimbsToWhereRefinementEnds) {
   Random random(97);

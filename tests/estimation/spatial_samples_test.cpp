@@ -65,8 +65,29 @@ TEST(SpatialSamples, DegenerateOnesHaveNoPose) {
   EXPECT_TRUE(solveUprightPoints(at(3, 0, 1), at(3, 1, 1)).empty()) << "level with the camera: any distance";
   EXPECT_TRUE(solveUprightPoints(at(3, 0, 2), at(3, 0, 2)).empty()) << "one point";
   EXPECT_TRUE(solveThreePoints({at(3, 0, 2), at(3, 0, 2), at(3, 1, 2)}).empty()) << "two points";
-  for (const Rigid3& pose : solveThreePoints({at(3, 0, 2), at(3, 1, 2), at(3, 2, 2)}))  // on a line
-    EXPECT_TRUE(pose.matrix().allFinite());
+  EXPECT_TRUE(solveUprightPoints(at(3, 0, 2), at(3, 0, 0)).empty()) << "one above the other: any heading";
+  EXPECT_TRUE(solveThreePoints({at(3, 0, 2), at(3, 1, 2), at(3, 2, 2)}).empty()) << "on a line";
+  Random random(113);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::array<RayToPoint, 3> matches;
+    for (RayToPoint& match : matches) {
+      const double along = random.uniform(-1, 1);
+      match = at(3 + along, 0.5 * along, 2 - along);
+    }
+    EXPECT_TRUE(solveThreePoints(matches).empty()) << trial;
+  }
+}
+
+// A square seen head-on, where the cubic loses its leading term.
+TEST(ThreePoints, SymmetricViews) {
+  for (const double distance : {1.0, 2.0, 5.0}) {
+    std::array<RayToPoint, 3> matches;
+    const Eigen::Vector3d corners[] = {{distance, 1, 1}, {distance, -1, 1}, {distance, -1, -1}};
+    for (std::size_t i = 0; i < 3; ++i) matches[i] = {{Eigen::Vector3d::Zero(), corners[i]}, corners[i]};
+    EXPECT_TRUE(holds(solveThreePoints(matches), Rigid3::Identity())) << distance;
+    std::swap(matches[0], matches[1]);
+    EXPECT_TRUE(holds(solveThreePoints(matches), Rigid3::Identity())) << distance;
+  }
 }
 
 }  // namespace

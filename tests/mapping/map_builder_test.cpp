@@ -3,292 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "synthetic_room.h"
-#include "triangulation.h"
 #include "vmcl/mapping/map_file.h"
 
 namespace vmcl {
 namespace {
 
 using testing::Recording;
-
-/// Number of the room's point that has this descriptor, for every descriptor.
-class PointFinder {
- public:
-  explicit PointFinder(const Descriptors& descriptors) {
-    for (int i = 0; i < descriptors.rows(); ++i) number_[key(descriptors.row(i))] = i;
-  }
-  int find(const Descriptors& descriptor) const { return number_.at(key(descriptor)); }
-
- private:
-  static std::string key(const Descriptors& descriptor) {
-    return {reinterpret_cast<const char*>(descriptor.data()), 32};
-  }
-  std::map<std::string, int> number_;
-};
-
-struct LandmarkErrors {
-  std::vector<Eigen::Vector3d> errors;
-  std::vector<double> nees;  // normalized estimation error squared
-  int mixed = 0;             // landmarks with observations of more than one point
-};
-
-LandmarkErrors landmarkErrors(const KeyframeMap& map, const testing::Room& room) {
-  const PointFinder finder(room.descriptors);
-  std::vector<int> point_of(map.landmarks.size(), -1);
-  LandmarkErrors result;
-  for (const Keyframe& keyframe : map.keyframes) {
-    for (int i = 0; i < keyframe.features.size(); ++i) {
-      const int landmark = keyframe.landmark_of_feature[static_cast<std::size_t>(i)];
-      if (landmark < 0) continue;
-      const int point = finder.find(keyframe.features.descriptors.row(i));
-      int& known = point_of[static_cast<std::size_t>(landmark)];
-      if (known >= 0 && known != point) ++result.mixed;
-      known = point;
-    }
-  }
-  for (std::size_t l = 0; l < map.landmarks.size(); ++l) {
-    const Eigen::Vector3d error =
-        map.landmarks[l].point_in_map - room.points_in_map[static_cast<std::size_t>(point_of[l])];
-    result.errors.push_back(error);
-    result.nees.push_back(error.dot(map.landmarks[l].covariance.ldlt().solve(error)));
-  }
-  return result;
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-// Roll and pitch are seen in every turn: their standard deviation over seeds is 0.01 deg here, so 0.1 deg is missed by
-// chance less than once in 1e9. Yaw rests on the priors of the headings (0.57 deg / sqrt(60) = 0.07 deg): 0.4 deg is
-// more than five standard deviations.
-TEST(MapBuilder, FindsTheMountAndTheLandmarks) {
-  Recording recording;
-  recording.mount_error = Eigen::Vector3d(2, -3, 1.5) * degree;
-  MapBuilderOptions options = recording.builderOptions();
-  const auto [map, report] = recording.build(options, 1);
-
-  const Eigen::Vector3d mount_miss = report.mount_correction[0] - recording.mount_error;
-  EXPECT_LT(std::abs(mount_miss.x()), 0.1 * degree);
-  EXPECT_LT(std::abs(mount_miss.y()), 0.1 * degree);
-  EXPECT_LT(std::abs(mount_miss.z()), 0.4 * degree);
-  EXPECT_TRUE(map.cameras[0].robot_from_camera.linear().isApprox(recording.trueCamera().robot_from_camera.linear(),
-                                                                 0.4 * degree));
-
-  EXPECT_EQ(report.keyframes, 60);
-  EXPECT_EQ(report.landmarks, std::ssize(map.landmarks));
-  EXPECT_GT(report.landmarks, 500);  // of 600
-  EXPECT_GT(report.mean_observations, 6);
-  EXPECT_NEAR(report.median_reprojection_px, 0.5 * std::sqrt(2 * std::log(2)), 0.15);  // of the Rayleigh distribution
-
-  const LandmarkErrors landmarks = landmarkErrors(map, recording.room);
-  EXPECT_EQ(landmarks.mixed, 0);
-  Eigen::Vector3d mean_error = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& error : landmarks.errors) mean_error += error / static_cast<double>(report.landmarks);
-  EXPECT_LT(mean_error.norm(), 0.03);
-}
-
-// Uncorrected, rays at the corners are off by 0.04 rad. Over seeds 1 to 9 they were left off by 0.0009 rad, as the
-// scale of the scene rests on the noisy poses: 0.005 is over five standard deviations, a false alarm for one seed in a
-// million.
-TEST(MapBuilder, FindsTheRadialDistortion) {
-  Recording recording;
-  recording.k1 = -0.1;
-  recording.k2 = 0.02;
-  const auto [map, report] = recording.build(recording.builderOptions(), 1);
-  const CameraCalibration &found = map.cameras[0].calibration, truth = recording.trueCamera().calibration;
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(20, 20), Eigen::Vector2d(620, 460)})
-    EXPECT_LT((found.pinhole.ray(found.undistort(corner)) - truth.pinhole.ray(truth.undistort(corner))).norm(), 0.005);
-  EXPECT_NEAR(report.median_reprojection_px, 0.5 * std::sqrt(2 * std::log(2)), 0.15);
-  EXPECT_EQ(landmarkErrors(map, recording.room).mixed, 0);
-}
-
-/// A short drive through a small room, for maps that are made by the hundred.
-Recording shortRecording() {
-  Recording recording;
-  recording.room = testing::Room(60, 12);
-  recording.drive.clear();
-  for (int i = 0; i < 6; ++i) recording.drive.push_back({-1.5 + 0.25 * i, 0.15 * i, 0.2 + 0.05 * i});
-  recording.outliers = 0;
-  return recording;
-}
-
-/// Mean NEES of one landmark of each of `maps` maps, with mounts drawn from their prior: the landmarks of one map err
-/// together with its poses, those of maps made from other noise do not.
-double meanNees(Recording recording, int maps) {
-  double nees = 0;
-  for (uint64_t seed = 1; seed <= static_cast<uint64_t>(maps); ++seed) {
-    Random random(seed, 1);
-    MapBuilderOptions options = recording.builderOptions();
-    options.sigma_focal = options.sigma_radial = 0;  // as true
-    recording.mount_error = options.sigma_mount_tilt * Eigen::Vector3d::NullaryExpr([&] { return random.normal(); });
-    const LandmarkErrors landmarks = landmarkErrors(recording.build(options, seed).first, recording.room);
-    nees += landmarks.nees.at(random.below(static_cast<uint32_t>(landmarks.nees.size()))) / maps;
-  }
-  return nees;
-}
-
-// A mean of 400 chi-squares of 3 degrees of freedom has the standard deviation sqrt(6 / 400) = 0.12: it leaves
-// [2.5, 3.5] with a chance of 1 in 20,000.
-TEST(MapBuilder, CovariancesAreHonest) {
-  const double nees = meanNees(shortRecording(), 400);
-  EXPECT_GT(nees, 2.5);
-  EXPECT_LT(nees, 3.5);
-}
-
-// Of 100 maps the standard deviation is 0.24: it leaves [2, 4] with a chance of 1 in 20,000.
-TEST(MapBuilder, CovariancesWithDepthAreHonest) {
-  Recording recording = shortRecording();
-  recording.sigma_depth = 0.005;
-  const double nees = meanNees(recording, 100);
-  EXPECT_GT(nees, 2);
-  EXPECT_LT(nees, 4);
-}
-
-// Of some 20,000 residuals the median gives the standard deviation to 1 %; 10 % are ten times that.
-TEST(MapBuilder, FindsTheNoise) {
-  Recording recording;
-  recording.sigma_px = 0.7;
-  recording.sigma_depth = 0.015;
-  MapBuilderOptions options = recording.builderOptions();
-  options.sigma_px = 1;
-  const MapBuildReport report = recording.build(options, 2).second;
-  EXPECT_NEAR(report.sigma_px, 0.7, 0.07);
-  EXPECT_NEAR(report.sigma_depth, 0.015, 0.0015);
-}
-
-// The mean NEES of over 200 points scatters by less than sqrt(6 / 200) = 0.17: five standard deviations are missed by
-// chance once in a million.
-TEST(MapBuilder, DepthPlacesWhatOneViewSees) {
-  Recording recording;
-  recording.room = testing::Room(3000, 11);
-  recording.drive.resize(1);
-  recording.sigma_position = recording.sigma_heading = recording.outliers = 0;
-  recording.sigma_depth = 0.005;  // what the builder assumes where nothing tells it
-  MapBuilderOptions options = recording.builderOptions();
-  options.sigma_mount_tilt = options.sigma_focal = options.sigma_radial = 0;
-  const auto [map, report] = recording.build(options, 1);
-  ASSERT_GT(report.features, 200);
-  EXPECT_EQ(report.landmarks, report.features);
-  EXPECT_EQ(report.tracks.seen_once, report.landmarks);
-  EXPECT_EQ(map.cameras[0].depth, DepthSource::range);
-  EXPECT_NEAR(mean(landmarkErrors(map, recording.room).nees), 3, 0.85);
-}
-
-// Before: the points of the same tracks, triangulated from the poses and the mount as given. Over seeds 1 to 5 the
-// adjustment brought the median error from over 0.2 m to under 0.04 m.
-TEST(MapBuilder, AdjustmentBringsLandmarksNearer) {
-  Recording recording;
-  recording.mount_error = Eigen::Vector3d(2, -3, 1.5) * degree;
-  const KeyframeMap map = recording.build(recording.builderOptions(), 1).first;
-  std::vector<std::vector<Sighting>> sightings(map.landmarks.size());
-  for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
-    const Keyframe& keyframe = map.keyframes[k];
-    const ReferenceCamera given{testing::forwardCamera().calibration.pinhole,
-                                recording.given_poses[k] * testing::forwardCamera().robot_from_camera};
-    for (std::size_t i = 0; i < keyframe.landmark_of_feature.size(); ++i)
-      if (const int landmark = keyframe.landmark_of_feature[i]; landmark >= 0)
-        sightings[static_cast<std::size_t>(landmark)].push_back({given, keyframe.features.pixels[i].cast<double>()});
-  }
-  KeyframeMap before = map;
-  for (std::size_t l = 0; l < map.landmarks.size(); ++l)
-    before.landmarks[l].point_in_map = triangulate(sightings[l], {}).point.point_in_map;
-  const auto median_error = [&](const KeyframeMap& of) {
-    std::vector<double> errors;
-    for (const Eigen::Vector3d& error : landmarkErrors(of, recording.room).errors) errors.push_back(error.norm());
-    std::ranges::sort(errors);
-    return errors[errors.size() / 2];
-  };
-  RecordProperty("median_error_before_m", std::to_string(median_error(before)));
-  RecordProperty("median_error_after_m", std::to_string(median_error(map)));
-  EXPECT_LT(median_error(map), 0.3 * median_error(before));
-}
-
-TEST(MapBuilder, KeepsHeightAndTiltOfADriveThatIsNotFlat) {
-  Recording recording = shortRecording();
-  recording.room = testing::Room(300, 12);
-  const Rigid3 level_from_robot =
-      Eigen::Translation3d(0, 0, 0.3) * Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 1, 0).normalized());
-  MapBuilderOptions options = recording.builderOptions();
-  options.flat = false;
-  options.sigma_mount_tilt = options.sigma_focal = options.sigma_radial = 0;
-  MapBuilder builder({testing::forwardCamera()}, options);
-  Random random(1);
-  for (std::size_t i = 0; i < recording.drive.size(); ++i) {
-    const Rigid3 map_from_robot = toRigid3(recording.drive[i]) * level_from_robot;
-    const ReferenceCamera view{testing::forwardCamera().calibration.pinhole,
-                               map_from_robot * testing::forwardCamera().robot_from_camera};
-    builder.add(0.1 * static_cast<double>(i), 0, map_from_robot, see(recording.room, view, 0.1, 0, random).features);
-  }
-  const auto [map, report] = builder.build();
-  EXPECT_NEAR(map.keyframes[3].map_from_robot.translation().z(), 0.3, 1e-9);
-  EXPECT_GT(report.landmarks, 20);
-  for (const Eigen::Vector3d& error : landmarkErrors(map, recording.room).errors) EXPECT_LT(error.norm(), 0.2);
-}
-
-// The images fix the poses far better than they were given, but for the three degrees of freedom of the whole: what is
-// left of each coordinate is the noise of the given 60 poses, 59 times independent. A chi-square of 59 degrees of
-// freedom leaves [25.6, 111] with a chance of 1 in 10,000.
-TEST(MapBuilder, SaysHowFarItsPosesAreFromTheGivenOnes) {
-  const Recording recording;
-  const Eigen::Matrix3d covariance = recording.build(recording.builderOptions(), 1).first.pose_covariance;
-  const Eigen::Vector3d sigma(recording.sigma_position, recording.sigma_position, recording.sigma_heading);
-  const Eigen::Vector3d sums = 60 * covariance.diagonal().cwiseQuotient(sigma.cwiseAbs2());
-  EXPECT_GT(sums.minCoeff(), 25.6);
-  EXPECT_LT(sums.maxCoeff(), 111);
-}
-
-// With everything else exact landmarks err by themselves: the mean NEES of over 500 scatters by sqrt(6 / 500) = 0.11,
-// so five standard deviations give a false alarm for one seed in a million.
-TEST(MapBuilder, ExactPosesGiveHonestCovariances) {
-  Recording recording;
-  recording.sigma_position = recording.sigma_heading = 0;
-  recording.outliers = 0;
-  MapBuilderOptions options = recording.builderOptions();
-  options.sigma_px = 1;  // twice the truth: the residuals tell
-  options.sigma_mount_tilt = options.sigma_focal = options.sigma_radial = 0;
-  const auto [map, report] = recording.build(options, 1);
-  EXPECT_NEAR(mean(landmarkErrors(map, recording.room).nees), 3, 0.55);
-  EXPECT_LT(report.mount_correction[0].norm(), 1e-4);
-}
-
-// A good landmark has a NEES over 50 with a chance below 1e-10 (chi-square of 3 degrees of freedom).
-TEST(MapBuilder, ManyOutliersMakeNoFalseLandmarks) {
-  Recording recording;
-  recording.outliers = 0.4;
-  const auto [map, report] = recording.build(recording.builderOptions(), 3);
-  const LandmarkErrors landmarks = landmarkErrors(map, recording.room);
-  EXPECT_GT(report.landmarks, 400);
-  EXPECT_LT(std::ranges::count_if(landmarks.nees, [](double nees) { return nees > 50; }), 0.02 * report.landmarks);
-}
-
-TEST(MapBuilder, TurningOnTheSpotGivesNoLandmarks) {
-  Recording recording;
-  recording.drive.clear();
-  for (int i = 0; i < 40; ++i) recording.drive.push_back({0.5, 0.5, 0.1 * i});
-  MapBuilderOptions options = recording.builderOptions();
-  MapCamera camera = testing::forwardCamera();
-  camera.robot_from_camera.translation().head<2>().setZero();  // above the axis of the turn: no parallax at all
-  MapBuilder builder({camera}, options);
-  Random random(4);
-  for (std::size_t i = 0; i < recording.drive.size(); ++i) {
-    const Rigid3 map_from_robot = toRigid3(recording.drive[i]);
-    const ReferenceCamera view{camera.calibration.pinhole, map_from_robot * camera.robot_from_camera};
-    builder.add(static_cast<double>(i), 0, map_from_robot, see(recording.room, view, 0.5, 0, random).features);
-  }
-  const auto [map, report] = builder.build();
-  EXPECT_EQ(report.keyframes, 40);
-  EXPECT_LT(report.landmarks, 0.02 * static_cast<double>(recording.room.points_in_map.size()));
-  EXPECT_EQ(map.place_descriptors.cols(), 40);
-}
 
 TEST(MapBuilder, SameInputGivesTheSameBytes) {
   const Recording recording;
@@ -355,7 +79,7 @@ TEST(MapBuilder, ImagesWithoutFeaturesAreNoMap) {
 }
 
 TEST(MapBuilder, SurvivesABlankImageAmongOthers) {
-  Recording recording = shortRecording();
+  Recording recording = testing::shortRecording();
   recording.drive.push_back({30, 0, 0});  // where nothing is to be seen
   const auto [map, report] = recording.build(recording.builderOptions(), 1);
   EXPECT_EQ(report.keyframes, std::ssize(recording.drive));
@@ -364,7 +88,7 @@ TEST(MapBuilder, SurvivesABlankImageAmongOthers) {
 }
 
 TEST(MapBuilder, SessionsAreMergedByWhatTheySee) {
-  const Recording recording = shortRecording();
+  const Recording recording = testing::shortRecording();
   MapBuilder builder({testing::forwardCamera()}, recording.builderOptions());
   Random random(2);
   for (int session = 0; session < 2; ++session) {

@@ -18,62 +18,12 @@
 #include <filesystem>
 #include <limits>
 
-#include "../relocalization/synthetic_room.h"
 #include "scratch_directory.h"
+#include "visual_keyframe_map_fixture.h"
 #include "vmcl/mapping/map_file.h"
 
 namespace vmcl {
 namespace {
-
-using mrpt::obs::CObservationImage;
-
-mrpt::poses::CPose3D mrptPose(const Rigid3& pose) {
-  return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(Eigen::Matrix4d(pose.matrix())));
-}
-
-mrpt::poses::CPose3D mrptPose(const PlanarPose& pose) { return {pose.x, pose.y, 0, pose.phi, 0, 0}; }
-
-class VisualKeyframeMapTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() { content_ = std::make_shared<const KeyframeMap>(mapOf(room_)); }
-  static void TearDownTestSuite() { content_.reset(); }
-
-  static CObservationImage imageFrom(const PlanarPose& robot_in_map) {
-    const Image seen = room_.look(robot_in_map, SyntheticRoom::mount());
-    CObservationImage observation;
-    observation.sensorLabel = "front";
-    static double time = 1000;  // a new one for each image, as the map tells images apart by it
-    observation.timestamp = mrpt::Clock::fromDouble(time++);
-    Image pixels = seen;
-    observation.image.loadFromMemoryBuffer(seen.width, seen.height, false, pixels.pixels.data());
-    const PinholeCamera camera = SyntheticRoom::calibration().pinhole;
-    observation.cameraParams.ncols = static_cast<uint32_t>(camera.width);
-    observation.cameraParams.nrows = static_cast<uint32_t>(camera.height);
-    observation.cameraParams.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-    observation.cameraPose = mrptPose(SyntheticRoom::mount());
-    return observation;
-  }
-
-  static double logLikelihood(const VisualKeyframeMap& map, const mrpt::obs::CObservation& observation,
-                              const PlanarPose& robot_in_map) {
-    return map.computeObservationLikelihood(observation, mrptPose(robot_in_map));
-  }
-
-  /// The truth is likelier than anything a little off, and far likelier than what is far off (10: 1 to 20,000).
-  static void expectPeakAt(const PlanarPose& truth, const VisualKeyframeMap& map, const CObservationImage& image) {
-    const double at_truth = logLikelihood(map, image, truth);
-    for (const double step : {0.15, -0.15}) {
-      EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x + step, truth.y, truth.phi}));
-      EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y + step, truth.phi}));
-      EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + step}) + 5);
-    }
-    EXPECT_GT(at_truth, logLikelihood(map, image, {truth.x, truth.y, truth.phi + 2}) + 10);
-  }
-
-  inline static const SyntheticRoom room_;
-  inline static std::shared_ptr<const KeyframeMap> content_;
-  const PlanarPose truth_{0.15, -0.25, 0.12};
-};
 
 TEST_F(VisualKeyframeMapTest, IsKnownToMrpt) {
   EXPECT_NE(mrpt::rtti::findRegisteredClass("vmcl::VisualKeyframeMap"), nullptr);
@@ -203,66 +153,6 @@ TEST_F(VisualKeyframeMapTest, SurvivesAStream) {
   EXPECT_EQ(copy->visualOptions().relocalizer.retrieved, 2);
   const CObservationImage image = imageFrom(truth_);
   EXPECT_EQ(logLikelihood(*copy, image, truth_), logLikelihood(map, image, truth_));
-}
-
-TEST_F(VisualKeyframeMapTest, IsEmptyUntilFilled) {
-  VisualKeyframeMap map;
-  EXPECT_TRUE(map.isEmpty());
-  EXPECT_EQ(map.content(), nullptr);
-  EXPECT_EQ(logLikelihood(map, imageFrom(truth_), truth_), 0);
-  EXPECT_FALSE(map.relocalize(imageFrom(truth_), 1).found());
-}
-
-TEST_F(VisualKeyframeMapTest, IsBuiltFromASimplemap) {
-  mrpt::maps::CSimpleMap drive;
-  for (int i = 0; i < 8; ++i) {
-    const PlanarPose pose{0.15 * i - 0.5, 0.1 * i - 0.4, 0.03 * i};
-    auto frame = mrpt::obs::CSensoryFrame::Create();
-    frame->insert(CObservationImage::Create(imageFrom(pose)));
-    drive.insert(mrpt::poses::CPose3DPDFGaussian::Create(mrptPose(pose)), frame);
-  }
-  VisualKeyframeMap map;
-  map.loadFromProbabilisticPosesAndObservations(drive);
-  ASSERT_FALSE(map.isEmpty());
-  ASSERT_TRUE(map.content());
-  EXPECT_GT(map.content()->keyframes.size(), 4U);
-  EXPECT_GT(map.content()->landmarks.size(), 20U);
-  expectPeakAt(truth_, map, imageFrom(truth_));
-  map.clear();
-  EXPECT_TRUE(map.isEmpty());
-}
-
-TEST_F(VisualKeyframeMapTest, AMapFromAFileStaysAsItIs) {
-  const ScratchDirectory scratch;
-  VisualMapOptions options;
-  options.map_file = (scratch.path() / "room.vmap").string();
-  EXPECT_THROW(VisualKeyframeMap{options}, std::runtime_error);
-  saveMap(options.map_file, *content_);
-  VisualKeyframeMap map(options);
-  EXPECT_FALSE(map.insertObservation(imageFrom(truth_)));
-  map.clear();
-  ASSERT_FALSE(map.isEmpty());
-  expectPeakAt(truth_, map, imageFrom(truth_));
-  map.saveMetricMapRepresentationToFile((scratch.path() / "again").string());
-  EXPECT_EQ(encodeMap(loadMap(scratch.path() / "again.vmap")), encodeMap(*content_));
-}
-
-TEST_F(VisualKeyframeMapTest, GivenContentIsNotLostByInserting) {
-  VisualKeyframeMap given({}, content_);
-  EXPECT_FALSE(given.insertObservation(imageFrom(truth_)));
-  EXPECT_EQ(given.content(), content_);
-  given.clear();
-  EXPECT_TRUE(given.insertObservation(imageFrom(truth_)));
-}
-
-TEST_F(VisualKeyframeMapTest, OneLabelIsOneCamera) {
-  VisualKeyframeMap map;
-  CObservationImage image = imageFrom(truth_);
-  EXPECT_TRUE(map.insertObservation(image));
-  image.cameraParams.fx(image.cameraParams.fx() * 1.1);
-  EXPECT_FALSE(map.insertObservation(image));
-  image.sensorLabel = "rear";
-  EXPECT_TRUE(map.insertObservation(image));
 }
 
 TEST_F(VisualKeyframeMapTest, AMapThatCannotBeBuiltSaysNothing) {

@@ -22,8 +22,8 @@ void EstimatorOptions::check() const {
   positive("max_modes", max_modes);
   if (!std::isfinite(in_sight_log_odds)) throw std::invalid_argument("in_sight_log_odds must be finite");
   if (motion != Motion::planar && solver != Solver::automatic)
-    throw std::invalid_argument("solver must be automatic where motion is not planar");
-  if (solver == Solver::three_depth) throw std::invalid_argument("solver 3dp is that of free motion");
+    throw std::invalid_argument("solver must be auto where motion is not planar, not " + std::string(nameOf(solver)));
+  if (solver == Solver::three_depth) throw std::invalid_argument("solver 3dp is for free motion: leave solver auto");
   likelihood.check();
   plane.check();
 }
@@ -75,7 +75,7 @@ std::vector<RefinedHypothesis> refined(const PoseProblem& problem, const PoseRef
     evidence.push_back(peak.log_evidence);
   }
   const auto is_same = [&](std::size_t a, std::size_t b) {
-    return difference(all[a].pose.map_from_robot, all[b].pose.map_from_robot).cwiseAbs().maxCoeff() < 1e-4;
+    return (all[a].pose.rigid().matrix() - all[b].pose.rigid().matrix()).cwiseAbs().maxCoeff() < 1e-4;
   };
   std::vector<RefinedHypothesis> kept;
   for (const std::size_t i : bestDistinct(evidence, all.size(), is_same)) kept.push_back(all[i]);
@@ -115,7 +115,7 @@ SoftPlane softPlane(const EstimatorOptions& options) {
   constexpr double any_tilt = 1, any_height = 10;
   SoftPlane plane = options.plane;
   if (options.motion == Motion::free) plane.sigma_tilt = any_tilt;
-  if (options.motion != Motion::planar) plane.sigma_height = any_height;
+  if (options.motion != Motion::planar) plane.sigma_height = std::max(plane.sigma_height, any_height);
   return plane;
 }
 
@@ -223,8 +223,8 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   estimate.inlier_rate = likelihood.options().inlier_prior;
   estimate.sigma_px = likelihood.options().sigma_px;
   const PoseMode& best = estimate.modes.front();
-  estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, estimate.sigma_px);
   if (options.motion != Motion::planar) return estimate;
+  estimate.degeneracies = degeneracies(problem, best.inliers, best.robot_in_map, estimate.sigma_px);
   const auto heaviest = std::ranges::find(peaks, best.log_likelihood,
                                           [](const RefinedHypothesis& peak) { return peak.pose.log_likelihood; });
   estimate.off_plane_log_odds = offPlaneLogOdds(likelihood, heaviest->pose);

@@ -36,9 +36,8 @@ PoseLikelihood::Prepared::Prepared(const Prepared& other, const LikelihoodOption
 
 void PoseLikelihood::Prepared::weighMatches() {
   const double odds = options.inlier_prior / (1 - options.inlier_prior);
-  outlier_sum = 0;
+  outlier_sum = inlier_odds.empty() ? -matches.match_count * std::log1p(odds) : 0;
   for (const double of_match : inlier_odds) outlier_sum -= std::log1p(odds * of_match);
-  if (inlier_odds.empty()) outlier_sum = -matches.match_count * std::log1p(odds);
   if (!outlier_density && inlier_odds.empty()) return;
   std::vector<double> worth = inlier_odds;
   worth.resize(static_cast<std::size_t>(matches.match_count), 1);

@@ -42,21 +42,20 @@ MinimalSampler::MinimalSampler(const PoseProblem& problem, double inlier_prior, 
   for (const std::size_t index : order) {
     const Match& match = problem.matches[index];
     const RayToRay rays = raysOfMatch(problem, match);
+    const double chance = odds * match.inlier_odds / (1 + odds * match.inlier_odds);
     if (match.point) {
       with_depth_.push_back({rays.ray_in_robot, match.point->point_in_map});
       ray_of_depth_.push_back(rays_.size());
+      depth_chances_.add(chance);
     }
     rays_.push_back(rays);
     match_of_ray_.push_back(static_cast<int>(index));
-    chances_.push_back(odds * match.inlier_odds / (1 + odds * match.inlier_odds));
+    ray_chances_.add(chance);
+    has_odds_ |= match.inlier_odds != problem.matches.front().inlier_odds;
     const auto apart = [](const Ray& a, const Ray& b) { return (a.origin - b.origin).norm() > 0.01; };
     has_baseline_ |=
         apart(rays.ray_in_map, rays_.front().ray_in_map) || apart(rays.ray_in_robot, rays_.front().ray_in_robot);
   }
-  if (chances_.empty()) return;
-  const auto [least, largest] = std::ranges::minmax(chances_);
-  for (double& chance : chances_) chance /= largest;
-  if (least == largest) chances_.clear();
 }
 
 bool MinimalSampler::canDraw(Solver kind) const {
@@ -85,31 +84,48 @@ double MinimalSampler::sampleCount(Solver kind) const {
 }
 
 double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inliers) const {
-  double any = 0, all = 0, deep = 0, all_deep = 0;
+  const bool by_odds = drawsByOdds(kind);
+  double any = 0, deep = 0;
   const auto isInlier = [&](std::size_t ray) {
     return std::binary_search(inliers.begin(), inliers.end(), match_of_ray_[ray]);
   };
-  for (std::size_t ray = 0; ray < rays_.size(); ++ray) {
-    all += chance(ray);
-    if (isInlier(ray)) any += chance(ray);
-  }
-  for (const std::size_t ray : ray_of_depth_) {
-    all_deep += chance(ray);
-    if (isInlier(ray)) deep += chance(ray);
-  }
-  any /= all;
-  deep = with_depth_.empty() ? 0 : deep / all_deep;
+  for (std::size_t i = 0; i < rays_.size(); ++i)
+    if (isInlier(i)) any += (by_odds ? ray_chances_.share(i) : 1.0 / static_cast<double>(rays_.size()));
+  for (std::size_t i = 0; i < with_depth_.size(); ++i)
+    if (isInlier(ray_of_depth_[i]))
+      deep += (by_odds ? depth_chances_.share(i) : 1.0 / static_cast<double>(with_depth_.size()));
   if (kind == Solver::two_depth) return deep * deep;
   if (kind == Solver::three_bearings) return deep * deep * deep;
   return kind == Solver::three_rays ? any * any * any : deep * any;
 }
 
+bool MinimalSampler::drawsByOdds(Solver kind) const {
+  constexpr double few = 256;  // are all tried, whatever their odds
+  return has_odds_ && sampleCount(kind) > few;
+}
+
 void MinimalSampler::draw(Solver kind, int count, std::vector<PlanarTransform>& poses) {
   EvenOrder& order = orders_.try_emplace(kind, static_cast<uint64_t>(sampleCount(kind)), random_).first->second;
-  for (int i = 0; i < count; ++i) {
-    Members members = membersOf(kind, order.next());
-    while (!isTaken(kind, members)) members = membersOf(kind, order.next());
-    addPoses(kind, members, poses);
+  const bool by_odds = drawsByOdds(kind);
+  for (int i = 0; i < count; ++i) addPoses(kind, by_odds ? likelyMembers(kind) : membersOf(kind, order.next()), poses);
+}
+
+MinimalSampler::Members MinimalSampler::likelyMembers(Solver kind) {
+  const auto depth = [&] { return depth_chances_.draw(random_); };
+  const auto ray = [&] { return ray_chances_.draw(random_); };
+  while (true) {
+    if (kind == Solver::one_point_one_depth) {
+      const Members members{depth(), ray()};
+      if (ray_of_depth_[members[0]] != members[1]) return members;
+    } else if (kind == Solver::two_depth) {
+      const Members members{depth(), depth()};
+      if (members[0] != members[1]) return members;
+    } else {
+      const bool of_depth = kind == Solver::three_bearings;
+      const Members members = of_depth ? Members{depth(), depth(), depth()} : Members{ray(), ray(), ray()};
+      const auto& [a, b, c] = members;
+      if (a != b && b != c && c != a) return members;
+    }
   }
 }
 
@@ -126,19 +142,6 @@ MinimalSampler::Members MinimalSampler::membersOf(Solver kind, uint64_t sample) 
   sample -= triplesOf(third);
   const uint64_t second = largestOf(sample, pairsOf);
   return {sample - pairsOf(second), second, third};
-}
-
-bool MinimalSampler::isTaken(Solver kind, const Members& members) {
-  constexpr double least = 0.01;  // so that no sample is out of the question, nor waited for
-  if (chances_.empty()) return true;
-  const auto& [a, b, c] = members;
-  double all = 1;
-  if (kind == Solver::one_point_one_depth) all = chance(ray_of_depth_[a]) * chance(b);
-  if (kind == Solver::two_depth) all = chance(ray_of_depth_[a]) * chance(ray_of_depth_[b]);
-  if (kind == Solver::three_rays) all = chance(a) * chance(b) * chance(c);
-  if (kind == Solver::three_bearings)
-    all = chance(ray_of_depth_[a]) * chance(ray_of_depth_[b]) * chance(ray_of_depth_[c]);
-  return random_.uniform() < std::max(all, least);
 }
 
 void MinimalSampler::addPoses(Solver kind, const Members& members, std::vector<PlanarTransform>& poses) const {

@@ -11,6 +11,7 @@
 #include "vmcl/geometry/planar_transform.h"
 #include "vmcl/geometry/pose_problem.h"
 #include "vmcl/geometry/random.h"
+#include "weighted_choice.h"
 
 namespace vmcl {
 
@@ -28,21 +29,23 @@ class MinimalSampler {
   double chanceOfInliers(Solver kind, const std::vector<int>& inliers) const;
 
   /// Appends the poses of the next `count` samples of a kind that can be drawn, in random order: each once before any
-  /// comes again or, where the matches' odds differ, in proportion to the chances that its matches are inliers.
+  /// comes again or, where the matches' odds differ and samples are many, each member in proportion to its chance to be
+  /// an inlier.
   void draw(Solver kind, int count, std::vector<PlanarTransform>& poses);
 
  private:
   /// A depth and a ray; two or three depths; three rays: indices into with_depth_ and rays_.
   using Members = std::array<std::size_t, 3>;
   Members membersOf(Solver kind, uint64_t sample) const;
-  bool isTaken(Solver kind, const Members& members);
+  Members likelyMembers(Solver kind);
+  bool drawsByOdds(Solver kind) const;
   void addPoses(Solver kind, const Members& members, std::vector<PlanarTransform>& poses) const;
-  double chance(std::size_t ray) const { return chances_.empty() ? 1 : chances_[ray]; }
 
   std::vector<RayToRay> rays_;  ///< of every match, shuffled
   std::vector<int> match_of_ray_;
-  std::vector<double> chances_;  ///< of rays_ to be inliers, over the largest; empty where all are the same
-  bool has_baseline_ = false;    ///< rays of either side come from two places or more, 1 cm apart
+  WeightedChoice ray_chances_, depth_chances_;  ///< that rays_ and with_depth_ are inliers
+  bool has_odds_ = false;                       ///< which differ
+  bool has_baseline_ = false;                   ///< rays of either side come from two places or more, 1 cm apart
   std::vector<RayToPoint> with_depth_;
   std::vector<std::size_t> ray_of_depth_;  ///< index of with_depth_'s entries in rays_
   Random random_;

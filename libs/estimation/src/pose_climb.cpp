@@ -58,7 +58,7 @@ class Climb {
 
 /// The highest first, without those that met a higher one.
 std::vector<Climb> withoutMet(const std::vector<Climb>& climbs) {
-  constexpr double met_distance2 = 0.1;  // in standard deviations
+  constexpr double met_distance2 = 0.1;  // in standard deviations, m and rad
   std::vector<double> heights;
   for (const Climb& climb : climbs) heights.push_back(climb.reached().slope.log_likelihood);
   const auto met = [&](std::size_t one, std::size_t other) {

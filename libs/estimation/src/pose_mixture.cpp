@@ -37,11 +37,17 @@ double distance2(const PoseMode& a, const PoseMode& b) {
   return std::min(d.dot(a.covariance.ldlt().solve(d)), d.dot(b.covariance.ldlt().solve(d)));
 }
 
-bool isSamePeak(const PoseMode& a, const PoseMode& b) { return distance2(a, b) < 0.25; }
+bool isAsFarOffThePlane(const PoseMode& a, const PoseMode& b) {
+  constexpr double same_angle = 0.03, same_height = 0.1;  // rad, m
+  return std::abs(wrapAngle(a.roll - b.roll)) < same_angle && std::abs(a.pitch - b.pitch) < same_angle &&
+         std::abs(a.height - b.height) < same_height;
+}
+
+bool isSamePeak(const PoseMode& a, const PoseMode& b) { return distance2(a, b) < 0.25 && isAsFarOffThePlane(a, b); }
 
 bool isSamePlace(const PoseMode& a, const PoseMode& b) {
   const Eigen::Vector3d d = difference(b.robot_in_map, a.robot_in_map);
-  return distance2(a, b) < 9 || (d.head<2>().norm() < 0.1 && std::abs(d.z()) < 0.03);
+  return isAsFarOffThePlane(a, b) && (distance2(a, b) < 9 || (d.head<2>().norm() < 0.1 && std::abs(d.z()) < 0.03));
 }
 
 /// One mode with the evidence, mean and covariance of several peaks, the heaviest first.

@@ -17,6 +17,9 @@ namespace {
 using Vector6 = PoseRefiner::Vector6;
 using Matrix6 = PoseRefiner::Matrix6;
 
+// Gains of the objective that a step is expected to bring.
+constexpr double near_the_top = 0.5, at_the_top = 1e-3;
+
 const double sqrt_2pi = std::sqrt(2 * std::numbers::pi);
 
 /// The axes in the map about which phi, pitch and roll turn the robot.
@@ -156,7 +159,7 @@ RefinedPose PoseRefiner::refine(const PlanarTransform& start) const {
 }
 
 RefinedPose PoseRefiner::refine(const RefinedPose& start) const {
-  const Position top = settled(nearTheTop(at(start)));
+  const Position top = settled(climbed(at(start), near_the_top));
   RefinedPose pose = top.pose;
   pose.log_likelihood = top.linear.log_likelihood;
   setUncertainty(top.linear, pose);
@@ -169,9 +172,8 @@ PoseRefiner::Position PoseRefiner::at(const RefinedPose& pose) const {
   return position;
 }
 
-PoseRefiner::Position PoseRefiner::nearTheTop(Position best) const {
+PoseRefiner::Position PoseRefiner::climbed(Position best, double near) const {
   constexpr int max_steps = 20;
-  constexpr double near = 0.5;  // gain expected from a step
   double damping = 1e-4;
   for (int i = 0; i < max_steps && damping < 1e6; ++i) {
     Matrix6 damped = best.linear.information;
@@ -196,12 +198,12 @@ PoseRefiner::Position PoseRefiner::settled(const Position& top) const {
     const Vector6 step = newtonStep(best.linear);
     if (!step.allFinite()) break;
     const Position next = at(moved(best.pose, step));
-    if (!(next.objective > top.objective - most_lost)) return top;
+    if (!(next.objective > top.objective - most_lost)) break;
     const double expected_gain = 0.5 * step.dot(best.linear.gradient);
     best = next;
-    if (expected_gain < settled) break;
+    if (expected_gain < settled) return best;
   }
-  return best;
+  return climbed(top, at_the_top);
 }
 
 void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose) const {
@@ -227,19 +229,25 @@ void PoseRefiner::setUncertainty(const Linearization& linear, RefinedPose& pose)
 }
 
 double PoseRefiner::inlierRate(const RefinedPose& pose, double prior_rate) const {
-  constexpr double prior_matches = 15, most_inliers = 1 - 1e-6;
+  constexpr double prior_matches = 15;
+  constexpr int halvings = 30;
   const auto& p = *likelihood_.prepared_;
   std::vector<double> ratios;
   p.visit(pose.rigid(), [&](int, const MatchResidual& residual) { ratios.push_back(residual.likelihood_ratio); });
-  double rate = prior_rate;
-  for (int i = 0; i < 20; ++i) {
-    double inliers = prior_matches * prior_rate, expected = prior_matches * rate;
-    for (const double ratio : ratios) inliers += responsibility(ratio, rate);
-    for (const double odds : p.inlier_odds) expected += responsibility(odds, rate);
-    if (p.inlier_odds.empty()) expected += p.matches.match_count * rate;
-    rate = std::min(rate * inliers / expected, most_inliers);
+  // The slope of the log likelihood over the rate's log odds: inliers as they show, less those that the rate expects.
+  const auto slope = [&](double rate) {
+    double sum = prior_matches * (prior_rate - rate);
+    for (const double ratio : ratios) sum += responsibility(ratio, rate);
+    for (const double odds : p.inlier_odds) sum -= responsibility(odds, rate);
+    if (p.inlier_odds.empty()) sum -= p.matches.match_count * rate;
+    return sum;
+  };
+  double low = 0, high = 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    (slope(middle) > 0 ? low : high) = middle;
   }
-  return rate;
+  return (low + high) / 2;
 }
 
 double PoseRefiner::sigmaPx(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const {

@@ -2,6 +2,7 @@
 #include "spatial_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -15,7 +15,8 @@ struct SpatialHypothesis {
 };
 
 /// The best hypotheses of random samples of two matches with depth (Motion::upright) or three of one camera
-/// (Motion::free), alike ones once, the best first; nothing if no sample can be drawn.
+/// (Motion::free), drawn whatever their odds; alike ones once, the best first; nothing if no sample can be
+/// drawn.
 std::optional<std::vector<SpatialHypothesis>> searchSpatialSamples(const PoseProblem& problem,
                                                                    const PoseLikelihood& likelihood,
                                                                    const EstimatorOptions& options);

@@ -2,6 +2,7 @@
 #include "three_points.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,17 +32,25 @@ Eigen::Matrix3d adjugate(const Eigen::Matrix3d& m) {
   return cofactors.transpose();
 }
 
-/// The two lines of a real degenerate conic of the pencil C + s E.
+/// The two lines of a real degenerate conic; none if it is none.
+std::vector<Eigen::Vector3d> linesOf(const Eigen::Matrix3d& conic) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(conic);
+  const Eigen::Vector3d& values = eigen.eigenvalues();  // the middle one is 0 if the lines are real
+  if (!(values[0] < 0 && values[2] > 0) || std::abs(values[1]) > std::min(-values[0], values[2])) return {};
+  const Eigen::Vector3d sum = std::sqrt(values[2]) * eigen.eigenvectors().col(2);
+  const Eigen::Vector3d difference = std::sqrt(-values[0]) * eigen.eigenvectors().col(0);
+  return {sum + difference, sum - difference};
+}
+
+/// Those of a conic of the pencil C + s E, or of E.
 std::vector<Eigen::Vector3d> linesOfPencil(const Eigen::Matrix3d& C, const Eigen::Matrix3d& E) {
+  constexpr double degenerate = 1e-12;
   const double leading = E.determinant();
+  if (std::abs(leading) < degenerate * std::pow(E.norm(), 3)) return linesOf(E);
   const double square = (C * adjugate(E)).trace(), linear = (adjugate(C) * E).trace();
   for (const double s : cubicRoots(square / leading, linear / leading, C.determinant() / leading)) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(C + s * E);
-    const Eigen::Vector3d& values = eigen.eigenvalues();  // the middle one is 0 if the lines are real
-    if (!(values[0] < 0 && values[2] > 0)) continue;
-    const Eigen::Vector3d sum = std::sqrt(values[2]) * eigen.eigenvectors().col(2);
-    const Eigen::Vector3d difference = std::sqrt(-values[0]) * eigen.eigenvectors().col(0);
-    return {sum + difference, sum - difference};
+    const std::vector<Eigen::Vector3d> lines = linesOf(C + s * E);
+    if (!lines.empty()) return lines;
   }
   return {};
 }
@@ -54,6 +63,11 @@ std::vector<Eigen::Vector3d> meetings(const Eigen::Vector3d& line, const Eigen::
   if (discriminant < 0) return {};
   const double q = -b - std::copysign(std::sqrt(discriminant), b);  // of the roots q / a and c / q of u over v
   return {q * u + a * v, c * u + q * v};
+}
+
+bool areOnALine(const Triple& points) {
+  const Eigen::Vector3d a = points.col(1) - points.col(0), b = points.col(2) - points.col(0);
+  return a.cross(b).norm() <= 1e-6 * a.norm() * b.norm();
 }
 
 /// Axes that tell how a triangle lies.
@@ -83,9 +97,13 @@ std::vector<Rigid3> solveThreePoints(const std::array<RayToPoint, 3>& matches) {
   const Eigen::Matrix3d Q_01 = lawOfCosines(0, 1), Q_02 = lawOfCosines(0, 2), Q_12 = lawOfCosines(1, 2);
   const double scale = distance2(0, 1);
   const Eigen::Matrix3d C = Q_12 - distance2(1, 2) / scale * Q_01, E = Q_02 - distance2(0, 2) / scale * Q_01;
+  // Of the two, the lines are not those of the one that is less degenerate.
+  const bool swap = std::abs(C.determinant()) < std::abs(E.determinant());
+  const Eigen::Matrix3d &conic = swap ? E : C, &other = swap ? C : E;
   std::vector<Rigid3> poses;
-  for (const Eigen::Vector3d& line : linesOfPencil(C, E))
-    for (const Eigen::Vector3d& direction : meetings(line, C)) {
+  if (areOnALine(points)) return poses;
+  for (const Eigen::Vector3d& line : linesOfPencil(conic, other))
+    for (const Eigen::Vector3d& direction : meetings(line, conic)) {
       const double size2 = direction.dot(Q_01 * direction) / scale;
       const Eigen::Vector3d d = direction / std::copysign(std::sqrt(size2), direction.sum());
       if (!(d.minCoeff() > 0)) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "upright_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vmcl {
@@ -8,6 +9,7 @@ namespace vmcl {
 std::vector<Rigid3> solveUprightPoints(const RayToPoint& first, const RayToPoint& second) {
   const Ray &one = first.ray_in_robot, &two = second.ray_in_robot;
   const Eigen::Vector3d D = first.point_in_map - second.point_in_map, o = one.origin - two.origin;
+  if (!(D.head<2>().norm() > 1e-6 * D.norm())) return {};
   // lambda = lambda_0 + s n solves one.z lambda_1 - two.z lambda_2 = D.z - o.z.
   const Eigen::Vector2d across(one.direction.z(), -two.direction.z()), n(two.direction.z(), one.direction.z());
   const Eigen::Vector2d lambda_0 = across * ((D.z() - o.z()) / across.squaredNorm());

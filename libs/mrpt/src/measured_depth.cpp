@@ -35,7 +35,9 @@ mrpt::math::CMatrix_u16 readRanges(const std::filesystem::path& file, const Pinh
   const auto rows = archive.ReadAs<uint32_t>(), columns = archive.ReadAs<uint32_t>();
   checkSize(rows, columns, camera);
   mrpt::math::CMatrix_u16 ranges(rows, columns);
-  archive.ReadBufferFixEndianness<uint16_t>(ranges.data(), ranges.size());
+  const auto bytes = static_cast<std::size_t>(ranges.size()) * sizeof(uint16_t);
+  if (archive.ReadBufferFixEndianness<uint16_t>(ranges.data(), static_cast<std::size_t>(ranges.size())) != bytes)
+    throw std::runtime_error(file.string() + ": cut off");
   return ranges;
 }
 

@@ -44,8 +44,11 @@ struct Candidate {
 
 /// Odds of a match by its ratio, over those of all: fitted to where the pixels of 255,000 SIFT matches between day and
 /// evening fall in simulated rooms, at the true pose; 60 at most. It is all but the same in each; ORB's is a little
-/// flatter.
-double inlierOdds(float ratio) { return std::exp(11 * (0.63 - std::max(double{ratio}, 0.26))); }
+/// flatter. Of other kinds nothing is known.
+double inlierOdds(float ratio, FeatureKind kind) {
+  const bool is_known = kind == FeatureKind::sift || kind == FeatureKind::orb;
+  return is_known ? std::exp(11 * (0.63 - std::max(double{ratio}, 0.26))) : 1;
+}
 
 double largestSigma(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
@@ -159,7 +162,7 @@ struct Relocalizer::State {
       match.query_pixel = query.pixels[static_cast<std::size_t>(found.query)].cast<double>();
       match.reference_pixel = features.pixels[static_cast<std::size_t>(found.reference)].cast<double>();
       const int landmark = reference.landmark_of_feature[static_cast<std::size_t>(found.reference)];
-      match.inlier_odds = inlierOdds(found.ratio);
+      match.inlier_odds = inlierOdds(found.ratio, map->feature_options.kind);
       all.push_back(candidate(match, reference, landmark, false, found.ratio));
     }
   }

@@ -10,7 +10,7 @@ namespace vmcl {
 float depthAt(const DepthImage& image, const Eigen::Vector2d& pixel) {
   constexpr int reach = 2;  // pixels to each side
   constexpr float largest_step = 0.1f;
-  if (!(pixel.cwiseAbs().maxCoeff() < 1e6)) return 0;
+  if (!(pixel.array().abs() < 1e6).all()) return 0;
   const int column = static_cast<int>(std::lround(pixel.x())), row = static_cast<int>(std::lround(pixel.y()));
   std::array<float, (2 * reach + 1) * (2 * reach + 1)> known{};
   std::size_t count = 0;

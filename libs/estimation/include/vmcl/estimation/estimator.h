@@ -17,8 +17,8 @@ namespace vmcl {
 /// How the robot may stand.
 enum class Motion {
   planar,   ///< on the plane, up to what SoftPlane allows
-  upright,  ///< at any height, tilted as SoftPlane allows: in a lift, on a ledge
-  free      ///< anyhow, looking no more than 60 degrees or so up or down: on a ramp, in somebody's hands
+  upright,  ///< within some 10 m of the plane's height (SoftPlane may say more), tilted as SoftPlane allows: on a ledge
+  free      ///< at such heights and anyhow, up to some 60 deg off upright: on a ramp, in somebody's hands
 };
 
 struct EstimatorOptions {
@@ -55,8 +55,8 @@ struct PoseEstimate {
   std::vector<PoseMode> modes;
   NoPose failure = NoPose::none;
   std::string reason;
-  std::vector<Degeneracy> degeneracies;  ///< of the first mode's inliers
-  double inlier_rate = 0;                ///< share of inliers that the modes were judged with
+  std::vector<Degeneracy> degeneracies;  ///< of the first mode's inliers, for planar motion
+  double inlier_rate = 0;                ///< share of inliers among matches of odds 1 that the modes were judged with
   double sigma_px = 0;                   ///< and standard deviation of a pixel coordinate
   /// Log of how much better the first mode explains the matches with the robot off its plane (0.1 rad, 0.2 m) than as
   /// SoftPlane allows: over about 5, the data contradict planar motion. 0 for other motions.

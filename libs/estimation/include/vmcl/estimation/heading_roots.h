@@ -6,7 +6,7 @@
 namespace vmcl {
 
 /// Calls on_root(cos(phi), sin(phi)) for the headings that solve A cos(phi) + B sin(phi) + C = 0, two or one: where
-/// noise pushes the line past the unit circle, the double root on the circle.
+/// noise pushes the line past the unit circle, the double root on the circle. Not for A = B = 0.
 template <class OnRoot>
 void solveHeading(double A, double B, double C, OnRoot&& on_root) {
   const double n = A * A + B * B, D = n - C * C;

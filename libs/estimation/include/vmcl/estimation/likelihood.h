@@ -11,7 +11,7 @@ namespace vmcl {
 
 struct LikelihoodOptions {
   double sigma_px = 2;        ///< standard deviation of a pixel coordinate, in either image
-  double inlier_prior = 0.3;  ///< chance that a match is an inlier, in (0, 1)
+  double inlier_prior = 0.3;  ///< chance that a match of odds 1 is an inlier, in (0, 1)
   /// Whether outliers may keep their elevation, as in a level world; how many do is estimated. Else they are uniform.
   bool level_outliers = true;
 

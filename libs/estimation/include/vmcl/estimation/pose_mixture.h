@@ -11,7 +11,8 @@ namespace vmcl {
 
 /// Which minimal samples are drawn: one match with depth and one without (1P1DP), two with depth (2DP), three without
 /// depth that see two references or more, or, by choice of the matches, the first two kinds or else the third. The
-/// bearings alone of three with depth only on request: even level with the camera they find hardly more. Three with
+/// bearings alone of three with depth only on request: where all points are within 0.02 to 0.5 m of the camera's
+/// height, the case that they are for, they find the pose 0 to 1 % more often than the first two kinds do. Three with
 /// depth, bearings and elevations, only where the robot is not bound to the ground.
 enum class Solver { automatic, one_point_one_depth, two_depth, three_rays, three_bearings, three_depth };
 
@@ -21,7 +22,7 @@ std::string_view nameOf(Solver solver);
 /// A place where the robot may be: one peak of the likelihood, or several close together.
 struct PoseMode {
   PlanarPose robot_in_map;
-  double roll = 0, pitch = 0, height = 0;                ///< off the plane, as the estimate left them free: rad, m
+  double roll = 0, pitch = 0, height = 0;                ///< off the plane, of the heaviest peak: rad, m; 0 if held
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi), map frame: m, m, rad
   double log_likelihood = 0;                             ///< L at the heaviest peak
   double log_evidence = 0;                               ///< log odds that the robot is here against chance
@@ -33,8 +34,9 @@ struct PoseMode {
 /// (x, y, phi) of b minus a, the angle wrapped.
 Eigen::Vector3d difference(const PlanarPose& b, const PlanarPose& a);
 
-/// Joins modes of one place, within 3 sigma or 0.1 m and 1.7 deg of each other, into one with the moments of their
-/// mixture, each peak (0.5 sigma) counted once; keeps the `max_modes` of most evidence and normalizes their weights.
+/// Joins modes of one place, within 3 sigma or 0.1 m and 1.7 deg of each other and as far off the plane, into one with
+/// the moments of their mixture, each peak (0.5 sigma) counted once; keeps the `max_modes` of most evidence and
+/// normalizes their weights.
 std::vector<PoseMode> mergeModes(std::vector<PoseMode> modes, int max_modes);
 
 }  // namespace vmcl

@@ -11,7 +11,7 @@
 namespace vmcl {
 
 /// What the robot may do beside moving on the plane: standard deviations of Gaussian priors on roll and pitch (rad) and
-/// height (m). 0 holds the quantity at 0.
+/// height (m). 0 holds the quantity where refinement starts: on the plane, unless told otherwise.
 struct SoftPlane {
   double sigma_tilt = 0;
   double sigma_height = 0;
@@ -33,6 +33,7 @@ struct RefinedPose {
   bool constrained = false;  ///< whether the matches fix all of x, y and phi; else covariance and evidence mean nothing
 
   Rigid3 rigid() const;
+  /// To start from; pitch is within 90 deg.
   static RefinedPose at(const Rigid3& map_from_robot);
 };
 
@@ -45,7 +46,7 @@ struct ClimbedPose {
 
 /// Climbs the likelihood: Levenberg-Marquardt on the residuals of each match weighted by its chance of being an inlier
 /// (expectation maximization), each step accepted only if the true objective grows; near the top to where the gradient
-/// of these residuals vanishes: one place, wherever the climb came from.
+/// of these residuals vanishes, one place wherever the climb came from, unless that costs more than 0.1 of L.
 class PoseRefiner {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -76,7 +77,7 @@ class PoseRefiner {
   /// sizes differ.
   void linearize(std::span<const PlanarTransform> poses, std::span<PlanarSlope> slopes) const;
 
-  /// As this pose shows them: the share of inliers among the matches, weighed with the prior's as if of 15 more
+  /// As this pose shows them: the share of inliers among matches of odds 1, weighed with the prior's as if of 15 more
   /// matches; and the standard deviation of a pixel coordinate, weighed with the prior's as if of 4 more coordinates:
   /// one step from the likelihood's towards where it fits the inliers' residuals.
   double inlierRate(const RefinedPose& pose, double prior_rate) const;
@@ -92,7 +93,9 @@ class PoseRefiner {
     double objective = 0;  ///< L and the log prior
   };
   Position at(const RefinedPose& pose) const;
-  Position nearTheTop(Position best) const;
+  /// Uphill until a step is expected to gain less than `near`.
+  Position climbed(Position best, double near) const;
+  /// Where the gradient vanishes or, if no such place is at hand, on top of the objective.
   Position settled(const Position& top) const;
 
   double logPrior(const RefinedPose& pose) const;
