@@ -7,7 +7,7 @@ namespace vmcl {
 namespace {
 
 /// A camera that looks at the plane n . X = 1, n in the optical frame.
-class DenseViewTest : public testing::Test {
+class DenseViewTest : public ::testing::Test {
  protected:
   DenseViewTest() {
     for (int row = 0; row < DenseView::depthRows(camera_); ++row)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace vmcl {
 namespace {
@@ -54,21 +56,27 @@ auto ReferenceDepth::measured(const Eigen::Vector2d& ideal_pixel) const -> std::
 
 /// From the three nearest landmarks.
 auto ReferenceDepth::interpolated(const Eigen::Vector2d& ideal_pixel) const -> std::optional<DepthWithSigma> {
-  std::array<KnownDepth, 3> nearest;
-  if (landmarks_.size() < nearest.size()) return std::nullopt;
-  const auto distance = [&](const KnownDepth& known) { return (known.pixel - ideal_pixel).norm(); };
-  std::ranges::partial_sort_copy(landmarks_, nearest, {}, distance, distance);
-  if (distance(nearest.back()) > interpolation_reach_px) return std::nullopt;
-  const auto [near, far] = std::ranges::minmax(nearest, {}, &KnownDepth::depth);
-  if (far.depth > interpolation_largest_step * near.depth) return std::nullopt;
-  double weights = 0, inverse_depth = 0;
-  for (const KnownDepth& known : nearest) {
-    const double weight = 1 / (1 + distance(known));
-    weights += weight;
-    inverse_depth += weight / known.depth;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<std::pair<double, const KnownDepth*>, 3> nearest;
+  nearest.fill({infinity, nullptr});
+  for (const KnownDepth& known : landmarks_) {
+    const double distance = (known.pixel - ideal_pixel).norm();
+    if (!(distance < nearest.back().first)) continue;
+    nearest.back() = {distance, &known};
+    std::ranges::sort(nearest);
   }
+  if (!(nearest.back().first <= interpolation_reach_px)) return std::nullopt;
+  double weights = 0, inverse_depth = 0, near = infinity, far = 0;
+  for (const auto& [distance, known] : nearest) {
+    const double weight = 1 / (1 + distance);
+    weights += weight;
+    inverse_depth += weight / known->depth;
+    near = std::min(near, known->depth);
+    far = std::max(far, known->depth);
+  }
+  if (far > interpolation_largest_step * near) return std::nullopt;
   const double depth = weights / inverse_depth;
-  return DepthWithSigma{depth, std::max((far.depth - near.depth) / 2, interpolation_sigma * depth)};
+  return DepthWithSigma{depth, std::max((far - near) / 2, interpolation_sigma * depth)};
 }
 
 }  // namespace vmcl
