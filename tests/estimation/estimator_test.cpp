@@ -116,9 +116,9 @@ TEST(Estimator, FewSamplesAreSharedByTheKinds) {
   EXPECT_GE(found, 17);
 }
 
-// At 97 % outliers odds of 3 to 1 tell what else is out of reach: 230 of 300 problems of other seeds are solved, without
-// them 148; 40 that say nothing for it are a false alarm in 5,000. Wrong odds do no harm where there are inliers enough:
-// all of the 300 are solved.
+// At 97 % outliers odds of 3 to 1 tell what else is out of reach: 230 of 300 problems of other seeds are solved,
+// without them 148; 40 that say nothing for it are a false alarm in 5,000. Wrong odds do no harm where there are
+// inliers enough: all of the 300 are solved.
 TEST(Estimator, HeedsOddsButNotBlindly) {
   Random random(79);
   constexpr int trials = 40;
