@@ -134,24 +134,34 @@ std::optional<std::vector<RefinedHypothesis>> search(const PoseProblem& problem,
   return found;
 }
 
-/// The likelihood with the share of inliers and, unless it is known, the pixel noise that show at the peak above the
-/// best pose, which is moved there. To judge and optimize all poses with.
-PoseLikelihood asShownBy(RefinedPose& best, const PoseLikelihood& first_guess, const EstimatorOptions& options) {
+/// A likelihood to judge and optimize all poses with.
+struct ShownLikelihood {
+  PoseLikelihood likelihood;
+  double spread = 1;  ///< of covariances: where the noise is estimated, errors are Student's
+};
+
+/// With the share of inliers and, unless it is known, the pixel noise that show at the peak above the best pose, which
+/// is moved there.
+ShownLikelihood asShownBy(RefinedPose& best, const PoseLikelihood& first_guess, const EstimatorOptions& options) {
   constexpr int max_rounds = 6;
   constexpr double settled = 0.1;  // change of the noise, relative
   const LikelihoodOptions& prior = options.likelihood;
   std::optional<PoseLikelihood> likelihood;
-  double sigma_px = prior.sigma_px, change = 1;
+  double sigma_px = prior.sigma_px, change = 1, spread = 1;
   for (int round = 0; round < max_rounds && change > settled; ++round) {
     const PoseRefiner refiner(likelihood ? *likelihood : first_guess, softPlane(options));
     best = refiner.refine(best);
     const double inlier_rate = refiner.inlierRate(best, prior.inlier_prior);
-    const double last = sigma_px;
-    if (options.estimate_sigma_px) sigma_px = refiner.sigmaPx(best, inlier_rate, prior.sigma_px);
-    change = std::abs(std::log(sigma_px / last));
+    change = 0;
+    if (options.estimate_sigma_px) {
+      const auto [estimated, freedom] = refiner.pixelNoise(best, inlier_rate, prior.sigma_px);
+      change = std::abs(std::log(estimated / sigma_px));
+      sigma_px = estimated;
+      spread = freedom / (freedom - 2);
+    }
     likelihood = first_guess.with(inlier_rate, sigma_px);
   }
-  return *std::move(likelihood);
+  return {*std::move(likelihood), spread};
 }
 
 double offPlaneLogOdds(const PoseLikelihood& likelihood, const RefinedPose& refined) {
@@ -207,7 +217,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (!found) return noPose(problem.matches.size() < 2 ? NoPose::too_few_matches : NoPose::no_sample);
   if (found->empty()) return noPose(NoPose::no_sample);
 
-  const PoseLikelihood likelihood = asShownBy(found->front().pose, first_guess, options);
+  const auto [likelihood, spread] = asShownBy(found->front().pose, first_guess, options);
   const PoseRefiner refiner(likelihood, softPlane(options));
   std::vector<RefinedHypothesis> peaks = refined(problem, refiner, *found);
   if (peaks.empty()) return noPose(NoPose::unconstrained);
@@ -217,7 +227,7 @@ PoseEstimate estimatePose(const PoseProblem& problem, const EstimatorOptions& op
   if (peaks.empty()) return noPose(NoPose::no_better_than_chance);
   PoseEstimate estimate;
   for (const auto& [pose, solver] : peaks)
-    estimate.modes.push_back({pose.map_from_robot, pose.roll, pose.pitch, pose.height, pose.covariance,
+    estimate.modes.push_back({pose.map_from_robot, pose.roll, pose.pitch, pose.height, spread * pose.covariance,
                               pose.log_likelihood, logEvidence(pose), 0, refiner.inliers(pose), solver});
   estimate.modes = mergeModes(std::move(estimate.modes), options.max_modes);
   estimate.inlier_rate = likelihood.options().inlier_prior;

@@ -250,7 +250,7 @@ double PoseRefiner::inlierRate(const RefinedPose& pose, double prior_rate) const
   return (low + high) / 2;
 }
 
-double PoseRefiner::sigmaPx(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const {
+PixelNoise PoseRefiner::pixelNoise(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const {
   constexpr double prior_coordinates = 4, pose_coordinates = 3;  // the latter fit because the pose was made to
   const auto& p = *likelihood_.prepared_;
   double fit = prior_coordinates * std::pow(prior_sigma_px / p.options.sigma_px, 2), freedom = 0;
@@ -260,7 +260,7 @@ double PoseRefiner::sigmaPx(const RefinedPose& pose, double inlier_rate, double 
     freedom += weight * residual.noise_freedom;
   });
   freedom = prior_coordinates + std::max(0.0, freedom - pose_coordinates);
-  return p.options.sigma_px * std::sqrt(fit / freedom);
+  return {p.options.sigma_px * std::sqrt(fit / freedom), freedom};
 }
 
 std::vector<int> PoseRefiner::inliers(const RefinedPose& pose) const {

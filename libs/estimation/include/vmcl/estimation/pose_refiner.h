@@ -37,6 +37,12 @@ struct RefinedPose {
   static RefinedPose at(const Rigid3& map_from_robot);
 };
 
+/// An estimate of the standard deviation of a pixel coordinate, and of how many coordinates it is worth.
+struct PixelNoise {
+  double sigma_px = 0;
+  double freedom = 0;
+};
+
 /// A planar pose all but at a maximum of L, and how L is there.
 struct ClimbedPose {
   PlanarTransform map_from_robot;
@@ -81,7 +87,7 @@ class PoseRefiner {
   /// matches; and the standard deviation of a pixel coordinate, weighed with the prior's as if of 4 more coordinates:
   /// one step from the likelihood's towards where it fits the inliers' residuals.
   double inlierRate(const RefinedPose& pose, double prior_rate) const;
-  double sigmaPx(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const;
+  PixelNoise pixelNoise(const RefinedPose& pose, double inlier_rate, double prior_sigma_px) const;
 
   /// Matches more likely inlier than outlier, by increasing index.
   std::vector<int> inliers(const RefinedPose& pose) const;
