@@ -121,6 +121,24 @@ TEST_F(AmclWorkflow, NoMotionUpdateOnRequest) {
   EXPECT_FALSE(move({}));
 }
 
+// A scan and an image of one place are both news, in whatever order and steps they come.
+TEST_F(AmclWorkflow, EachSensorIsUsedOnceTheRobotHasMovedEnough) {
+  start(flatMap());
+  const auto seenBy = [&](const std::string& sensor, const PlanarPose& movement) {
+    const auto observation = commentAt(time_ += 0.001);
+    observation->sensorLabel = sensor;
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(observation);
+    return localizer_->process(movement, frame).has_value();
+  };
+  for (int place = 0; place < 3; ++place) {
+    EXPECT_TRUE(seenBy("laser", {0.3, 0, 0}));
+    EXPECT_TRUE(seenBy("camera", {}));
+    EXPECT_FALSE(seenBy("laser", {0.1, 0, 0}));
+    EXPECT_FALSE(seenBy("camera", {0.1, 0, 0}));
+  }
+}
+
 /// Noise that grows with the square of the way must not depend on how often the movement is read.
 TEST_F(AmclWorkflow, OdometryNoiseDoesNotDependOnItsRate) {
   LocalizerOptions noisy = amclOptions();

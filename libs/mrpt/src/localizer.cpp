@@ -72,7 +72,8 @@ void Localizer::setMap(CMultiMetricMap::Ptr maps, const std::optional<PoseBox>& 
 
 void Localizer::restart() {
   monitor_.restart();
-  pending_ = since_update_ = {};
+  pending_ = {};
+  since_use_.clear();
   noise_is_pending_ = false;
   steady_frames_ = 0;
   expected_.reset();
@@ -114,13 +115,14 @@ std::optional<LocalizationFrame> Localizer::processNew(const CSensoryFrame& obse
   if (observations.size() == 0) return std::nullopt;
   const double time = timeOf(observations);
   const bool has_stood = std::exchange(has_stood_, true);
-  if (!isDue() && !odometry_.hasStopped(time)) {
+  const CSensoryFrame due = dueOnes(observations, time);
+  if (due.size() == 0) {
     if (has_stood && seen_at_) monitor_.rest(time - *seen_at_);
     seen_at_ = time;
     return std::nullopt;
   }
   try {
-    if (const auto frame = update(observations)) return frame;
+    if (const auto frame = update(due)) return frame;
   } catch (const std::exception& error) {
     leaveOut(error);
     update_requested_ = true;
@@ -154,17 +156,20 @@ void Localizer::advance(const CActionCollection& action) {
 }
 
 void Localizer::noteMovement(const PlanarPose& movement) {
-  since_update_ = since_update_ * movement;
+  since_use_.add(movement);
   if (expected_) expected_ = *expected_ * movement;
   constexpr double still_position = 1e-3, still_heading = 0.1 * degree;
   has_stood_ =
       has_stood_ && std::hypot(movement.x, movement.y) < still_position && std::abs(movement.phi) < still_heading;
 }
 
-bool Localizer::isDue() const {
-  return !updated_at_ || update_requested_ || std::abs(since_update_.x) > options_.update_min_d ||
-         std::abs(since_update_.y) > options_.update_min_d || std::abs(since_update_.phi) > options_.update_min_a ||
-         (options_.update_min_d == 0 && options_.update_min_a == 0);
+CSensoryFrame Localizer::dueOnes(const CSensoryFrame& frame, double time) const {
+  if (!updated_at_ || update_requested_ || odometry_.hasStopped(time)) return frame;
+  CSensoryFrame ones;
+  for (const auto& observation : frame)
+    if (since_use_.isOver(observation->sensorLabel, options_.update_min_d, options_.update_min_a))
+      ones.insert(observation);
+  return ones;
 }
 
 std::optional<LocalizationFrame> Localizer::update(const CSensoryFrame& observations) {
@@ -180,7 +185,7 @@ std::optional<LocalizationFrame> Localizer::update(const CSensoryFrame& observat
   }
   if (!options_.odometry_only) filter_.update(nullptr, &used.frame, used.modes());
   seen_at_ = time;
-  since_update_ = {};
+  for (const auto& observation : used.frame) since_use_.use(observation->sensorLabel);
   update_requested_ = false;
   const PoseCluster cluster = dominantCluster(filter_);
   UpdateEvidence seen = evidence(used, cluster);

@@ -14,6 +14,7 @@
 #include "vmcl/mrpt/odometry_track.h"
 #include "vmcl/mrpt/planar_monte_carlo.h"
 #include "vmcl/mrpt/pose_cluster.h"
+#include "vmcl/mrpt/way_since_use.h"
 
 namespace vmcl {
 
@@ -102,7 +103,7 @@ class Localizer {
   void advance(const PlanarPose& movement);
   void advance(const mrpt::obs::CActionCollection& action);
   void noteMovement(const PlanarPose& movement);
-  bool isDue() const;
+  mrpt::obs::CSensoryFrame dueOnes(const mrpt::obs::CSensoryFrame& frame, double time) const;
   std::optional<LocalizationFrame> update(const mrpt::obs::CSensoryFrame& observations);
   Used usable(const mrpt::obs::CSensoryFrame& frame);
   bool isUsable(const mrpt::obs::CActionCollection& action);
@@ -128,7 +129,7 @@ class Localizer {
   PlanarPose pending_;             ///< movement that the particles have not made yet
   bool noise_is_pending_ = false;  ///< nor been spread by its noise
   bool has_stood_ = false;         ///< since the last observation
-  PlanarPose since_update_;        ///< movement since an observation was used
+  WaySinceUse since_use_;
   bool update_requested_ = false;
   std::vector<std::string> problems_;
   int steps_to_skip_ = 0;

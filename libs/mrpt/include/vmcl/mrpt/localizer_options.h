@@ -22,8 +22,9 @@ struct LocalizedRule {
 
 /// How a Localizer works. The defaults are those of MRPT's pf-localization; amcl() gives AMCL's.
 struct LocalizerOptions {
-  int particles_count = 0;     ///< at every start, at least 1
-  double update_min_d = 0;     ///< m: an observation is used once the robot has moved so far since the last one used,
+  int particles_count = 0;  ///< at every start, at least 1
+  double update_min_d =
+      0;  ///< m: an observation is used once the robot has moved so far since its sensor was used last,
   double update_min_a = 0;     ///< or has turned so far, rad; 0 and 0: every one
   bool odometry_only = false;  ///< the maps weigh nothing
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions motion_model;  ///< of odometry, unless monte_carlo has one
