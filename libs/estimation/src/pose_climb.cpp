@@ -60,11 +60,14 @@ class Climb {
 std::vector<Climb> withoutMet(const std::vector<Climb>& climbs) {
   constexpr double met_distance2 = 0.1;  // in standard deviations, m and rad
   std::vector<double> heights;
-  for (const Climb& climb : climbs) heights.push_back(climb.reached().slope.log_likelihood);
+  std::vector<PlanarPose> poses;
+  for (const Climb& climb : climbs) {
+    heights.push_back(climb.reached().slope.log_likelihood);
+    poses.push_back(climb.reached().map_from_robot.pose());
+  }
   const auto met = [&](std::size_t one, std::size_t other) {
-    const ClimbedPose &lower = climbs[one].reached(), &higher = climbs[other].reached();
-    const Eigen::Vector3d d = difference(lower.map_from_robot.pose(), higher.map_from_robot.pose());
-    return d.squaredNorm() + d.dot(higher.slope.information * d) < met_distance2;
+    const Eigen::Vector3d d = difference(poses[one], poses[other]);
+    return d.squaredNorm() + d.dot(climbs[other].reached().slope.information * d) < met_distance2;
   };
   std::vector<Climb> kept;
   for (const std::size_t i : bestDistinct(heights, climbs.size(), met)) kept.push_back(climbs[i]);

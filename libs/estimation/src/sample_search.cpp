@@ -7,6 +7,7 @@
 
 #include "best_distinct.h"
 #include "minimal_sampler.h"
+#include "samples_needed.h"
 
 namespace vmcl {
 namespace {
@@ -72,12 +73,10 @@ class Search {
 
   /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than there are.
   int samplesWanted(const Kind& kind) const {
-    constexpr double miss = 1e-3;
     const double left = sampler_.sampleCount(kind.solver) - kind.drawn;
     if (kind.drawn == 0) return static_cast<int>(std::min(left, 1.0 * at_first_));
     const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
-    const double needed = std::ceil(std::log(miss) / std::log1p(-std::min(chance, 1 - miss)));
-    return static_cast<int>(std::min({needed - kind.drawn, 1.0 * kind.drawn, left}));
+    return static_cast<int>(std::min({samplesNeeded(chance) - kind.drawn, 1.0 * kind.drawn, left}));
   }
 
   void draw(Kind& kind, int count) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "best_distinct.h"
+#include "samples_needed.h"
 #include "three_points.h"
 #include "upright_points.h"
 #include "vmcl/estimation/match_rays.h"
@@ -86,7 +87,6 @@ std::optional<std::vector<SpatialHypothesis>> searchSpatialSamples(const PosePro
                                                                    const PoseLikelihood& likelihood,
                                                                    const EstimatorOptions& options) {
   constexpr int at_first = 64;
-  constexpr double miss = 1e-3;
   SpatialSampler sampler(problem, options);
   if (!sampler.canDraw()) return std::nullopt;
   const PoseRefiner refiner(likelihood, {});
@@ -100,9 +100,8 @@ std::optional<std::vector<SpatialHypothesis>> searchSpatialSamples(const PosePro
       scores.push_back(likelihood(pose));
       if (scores.back() <= best) continue;
       best = scores.back();
-      const double chance = std::min(sampler.chanceOfInliers(refiner.inliers(RefinedPose::at(pose))), 1 - miss);
-      const double needed = std::clamp(std::log(miss) / std::log1p(-chance), double{at_first}, 1e9);
-      wanted = std::min(static_cast<int>(needed), options.iterations);
+      const double needed = samplesNeeded(sampler.chanceOfInliers(refiner.inliers(RefinedPose::at(pose))));
+      wanted = static_cast<int>(std::min(std::max(needed, double{at_first}), double(options.iterations)));
     }
   std::vector<SpatialHypothesis> result;
   const auto are_alike = [&](std::size_t a, std::size_t b) { return alike(poses[a], poses[b]); };
