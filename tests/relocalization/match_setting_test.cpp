@@ -14,7 +14,7 @@ using testing::ThrowsMessage;
 class MatchSettingTest : public testing::Test {
  protected:
   RelocalizationResult relocalize(MatchSetting setting, const KeyframeMap& map) const {
-    const QueryImage query{image_.view(), SyntheticRoom::calibration(), SyntheticRoom::mount(), 0};
+    const QueryImage query{image_.view(), SyntheticRoom::calibration(), SyntheticRoom::mount()};
     return Relocalizer(std::make_shared<const KeyframeMap>(map), {.setting = setting}).relocalize({{query}});
   }
 

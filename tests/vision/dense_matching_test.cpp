@@ -33,8 +33,8 @@ TEST(GridMatcherTest, FindsPointsToAPartOfAPixel) {
   const Image reference = rectangleTexture(320, 240, 5);
   const Eigen::Vector2d shift(-23.4, 12.7);
   const Image query = changed(reference, shift);
-  const std::vector<Eigen::Vector2f> points = denseGrid(320, 240, 0);
-  const std::vector<DenseMatch> matches = gridMatcher(query.view(), 0)->match(reference.view(), points);
+  const std::vector<Eigen::Vector2f> points = denseGrid(320, 240, {});
+  const std::vector<DenseMatch> matches = gridMatcher(query.view(), {})->match(reference.view(), points);
   ASSERT_GT(matches.size(), points.size() / 2);
   int good = 0;
   for (const DenseMatch& match : matches) {
@@ -45,23 +45,40 @@ TEST(GridMatcherTest, FindsPointsToAPartOfAPixel) {
 }
 
 TEST(GridMatcherTest, FindsNextToNothingInAnotherImage) {
-  const std::vector<Eigen::Vector2f> points = denseGrid(320, 240, 0);
+  const std::vector<Eigen::Vector2f> points = denseGrid(320, 240, {});
   const Image query = rectangleTexture(320, 240, 6), reference = rectangleTexture(320, 240, 7);
-  EXPECT_LT(gridMatcher(query.view(), 0)->match(reference.view(), points).size(), points.size() / 25);
+  EXPECT_LT(gridMatcher(query.view(), {})->match(reference.view(), points).size(), points.size() / 25);
 }
 
 TEST(GridMatcherTest, NothingMatchesABlankImage) {
-  const std::vector<Eigen::Vector2f> points = denseGrid(320, 240, 0);
+  const std::vector<Eigen::Vector2f> points = denseGrid(320, 240, {});
   const Image texture = rectangleTexture(320, 240, 6), blank = rectangleTexture(320, 240, 1, 0);
-  EXPECT_TRUE(gridMatcher(blank.view(), 0)->match(texture.view(), points).empty());
-  EXPECT_TRUE(gridMatcher(texture.view(), 0)->match(blank.view(), points).empty());
-  EXPECT_TRUE(gridMatcher(texture.view(), 0)->match(texture.view(), {}).empty());
+  EXPECT_TRUE(gridMatcher(blank.view(), {})->match(texture.view(), points).empty());
+  EXPECT_TRUE(gridMatcher(texture.view(), {})->match(blank.view(), points).empty());
+  EXPECT_TRUE(gridMatcher(texture.view(), {})->match(texture.view(), {}).empty());
+}
+
+TEST(GridMatcherTest, NothingMatchesWhatTheMaskHides) {
+  const Image texture = rectangleTexture(320, 240, 6);
+  Image white{320, 240, std::vector<uint8_t>(320 * 240)};
+  for (std::size_t i = 0; i < white.pixels.size(); ++i) white.pixels[i] = i % 320 < 160 ? 128 : 127;
+  const ImageMask mask{80, white.view()};
+  const std::vector<Eigen::Vector2f> all = denseGrid(320, 240, {}), visible = denseGrid(320, 240, mask);
+  const auto isVisible = [](const Eigen::Vector2f& pixel) { return pixel.x() > 159.5f && pixel.y() > 79.5f; };
+  EXPECT_EQ(std::ranges::count_if(all, isVisible), 19 * 19);
+  EXPECT_EQ(visible.size(), 19 * 18);
+  EXPECT_TRUE(std::ranges::all_of(visible, isVisible));
+  const std::vector<DenseMatch> matches = gridMatcher(texture.view(), mask)->match(texture.view(), all);
+  EXPECT_GT(matches.size(), visible.size() / 2);
+  for (const DenseMatch& match : matches) EXPECT_TRUE(isVisible(match.query_pixel)) << match.query_pixel.transpose();
+  EXPECT_THROW(gridMatcher(texture.view(), {240}), std::invalid_argument);
+  EXPECT_THROW(denseGrid(160, 240, mask), std::invalid_argument);
 }
 
 TEST(GridMatcherTest, RefusesAnEmptyImage) {
-  EXPECT_THROW(gridMatcher({}, 0), std::invalid_argument);
+  EXPECT_THROW(gridMatcher({}, {}), std::invalid_argument);
   const Image texture = rectangleTexture(320, 240, 6);
-  EXPECT_THROW(gridMatcher(texture.view(), 0)->match({}, {}), std::invalid_argument);
+  EXPECT_THROW(gridMatcher(texture.view(), {})->match({}, {}), std::invalid_argument);
 }
 
 TEST(CompressedImageTest, ComesBackAlmostTheSame) {

@@ -128,7 +128,7 @@ TEST_P(FeatureExtractorTest, MaskedPixelsHaveNoSay) {
       other.pixels[static_cast<std::size_t>(320 * v + u)] ^= 0x55;
     }
   const FeatureExtractor extractor(options_);
-  const FeatureSet features = extractor.extract(texture_.view(), camera_, mask.view());
+  const FeatureSet features = extractor.extract(texture_.view(), camera_, {20, mask.view()});
   ASSERT_GT(features.size(), 50);
   for (int i = 0; i < features.size(); ++i) {
     const Eigen::Vector2f& pixel = features.pixels[static_cast<std::size_t>(i)];
@@ -136,11 +136,11 @@ TEST_P(FeatureExtractorTest, MaskedPixelsHaveNoSay) {
     const Eigen::Vector2f inside = (pixel + reach * Eigen::Vector2f(200 - pixel.x(), 150 - pixel.y()).normalized());
     EXPECT_FALSE(inside.x() > 151 && inside.x() < 260 && inside.y() > 101) << pixel.transpose() << " reaches " << reach;
   }
-  expectSame(features, extractor.extract(other.view(), camera_, mask.view()));
+  expectSame(features, extractor.extract(other.view(), camera_, {20, mask.view()}));
   const Image nothing_masked{320, 240, std::vector<uint8_t>(320 * 240, 127)};
-  expectSame(extract(texture_), extractor.extract(texture_.view(), camera_, nothing_masked.view()));
+  expectSame(extract(texture_), extractor.extract(texture_.view(), camera_, {20, nothing_masked.view()}));
   const Image all_masked{320, 240, std::vector<uint8_t>(320 * 240, 128)};
-  EXPECT_EQ(extractor.extract(texture_.view(), camera_, all_masked.view()).size(), 0);
+  EXPECT_EQ(extractor.extract(texture_.view(), camera_, {20, all_masked.view()}).size(), 0);
 }
 
 TEST_P(FeatureExtractorTest, BlankOrTinyImagesHaveNone) {
@@ -162,8 +162,11 @@ TEST_P(FeatureExtractorTest, RefusesWhatDoesNotFitTheCamera) {
   refused({pixels, 320, 240, 2, 640}, "2 channels");
   refused({pixels, 320, 240, 1, 319}, "319 bytes");
   const Image small_mask{240, 320, std::vector<uint8_t>(320 * 240)};
-  EXPECT_THAT([&] { extractor.extract(texture_.view(), camera_, small_mask.view()); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("mask is 240 x 320")));
+  EXPECT_THAT(
+      [&] {
+        extractor.extract(texture_.view(), camera_, {20, small_mask.view()});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("mask is 240 x 320")));
   options_.mask_rows_from_top = 240;
   EXPECT_THAT([&] { extract(texture_); }, ThrowsMessage<std::invalid_argument>(HasSubstr("mask_rows_from_top")));
 }

@@ -134,7 +134,7 @@ bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, cons
   const auto i = static_cast<std::size_t>(camera);
   const MapCamera& taken_by = state_->cameras[i];
   checkDepth(depth, taken_by.calibration.pinhole);
-  FeatureSet features = state_->extractors[i].extract(image, taken_by.calibration, taken_by.mask.view());
+  FeatureSet features = state_->extractors[i].extract(image, taken_by.calibration, taken_by.imageMask());
   std::vector<float> depths;
   if (!depth.empty())
     for (const Eigen::Vector2f& pixel : features.pixels)

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "feature_detector.h"
-#include "image_mask.h"
+#include "hidden_parts.h"
 
 namespace vmcl {
 namespace {
@@ -15,7 +15,7 @@ constexpr int min_image_side = 16;  // pixels; less holds no feature and upsets 
 
 std::string sizeText(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
-void checkImage(const ImageView& image, const CameraCalibration& calibration, int mask_rows_from_top) {
+void checkImage(const ImageView& image, const CameraCalibration& calibration) {
   calibration.check();
   const PinholeCamera& camera = calibration.pinhole;
   if (image.empty() || image.width != camera.width || image.height != camera.height)
@@ -25,9 +25,6 @@ void checkImage(const ImageView& image, const CameraCalibration& calibration, in
     throw std::invalid_argument("image has " + std::to_string(image.channels) + " channels, not 1 or 3");
   if (image.row_bytes < static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels))
     throw std::invalid_argument("image rows are " + std::to_string(image.row_bytes) + " bytes, too short");
-  if (mask_rows_from_top < 0 || mask_rows_from_top >= image.height)
-    throw std::invalid_argument("mask_rows_from_top is " + std::to_string(mask_rows_from_top) + " of " +
-                                std::to_string(image.height) + " image rows");
 }
 
 /// The image below the mask in grey. Cut off rather than masked: what shows the robot itself then takes no share of
@@ -69,19 +66,19 @@ FeatureExtractor& FeatureExtractor::operator=(FeatureExtractor&&) noexcept = def
 
 const FeatureOptions& FeatureExtractor::options() const { return options_; }
 
-FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibration& calibration,
-                                     const ImageView& mask) const {
-  return extract(image, calibration, mask, options_.mask_rows_from_top);
+FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibration& calibration) const {
+  return extract(image, calibration, {.rows_from_top = options_.mask_rows_from_top});
 }
 
 FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibration& calibration,
-                                     const ImageView& mask, int mask_rows_from_top) const {
-  checkImage(image, calibration, mask_rows_from_top);
+                                     const ImageMask& mask) const {
+  checkImage(image, calibration);
+  mask.check(image.width, image.height);
   FeatureSet features;
   features.kind = options_.kind;
   features.descriptors.resize(0, detector_->descriptorBytes());
-  const ImageMask hidden(mask, {image.width, image.height}, mask_rows_from_top);
-  const cv::Mat grey = hidden.filled(visibleGrey(image, mask_rows_from_top));
+  const HiddenParts hidden(mask);
+  const cv::Mat grey = hidden.filled(visibleGrey(image, mask.rows_from_top));
   if (std::min(grey.cols, grey.rows) < min_image_side) return features;
 
   const DetectedFeatures found = detector_->detect(grey);
@@ -90,7 +87,7 @@ FeatureSet FeatureExtractor::extract(const ImageView& image, const CameraCalibra
   features.descriptors.resize(static_cast<Eigen::Index>(kept.size()), Eigen::NoChange);
   for (int row : kept) {
     const cv::KeyPoint& keypoint = found.keypoints[static_cast<std::size_t>(row)];
-    const Eigen::Vector2d distorted(keypoint.pt.x, keypoint.pt.y + static_cast<float>(mask_rows_from_top));
+    const Eigen::Vector2d distorted(keypoint.pt.x, keypoint.pt.y + static_cast<float>(mask.rows_from_top));
     const Eigen::Vector2d ideal = calibration.undistort(distorted);
     // Far outside the calibrated field the distortion has no inverse.
     if (!((calibration.distort(ideal) - distorted).norm() < 0.1)) continue;

@@ -82,9 +82,10 @@ std::vector<Guess> inConsensus(const std::vector<Guess>& guesses) {
 
 class GridMatcher : public DenseMatcher {
  public:
-  GridMatcher(const ImageView& query, int first_row)
-      : even_(evenContrast(greyOf(query))),
-        grid_(denseGrid(query.width, query.height, first_row)),
+  GridMatcher(const ImageView& query, const ImageMask& mask)
+      : mask_(mask),
+        even_(evenContrast(greyOf(query))),
+        grid_(denseGrid(query.width, query.height, mask)),
         described_(describePoints(greyOf(query), grid_)),
         blocks_(FeatureKind::sift, described_.descriptors) {}
 
@@ -137,7 +138,7 @@ class GridMatcher : public DenseMatcher {
     const std::vector<uint8_t> found_back = track(even_, reference, to, returned);
     for (std::size_t i = 0; i < guesses.size(); ++i)
       if (found[i] && found_back[i] && cv::norm(to[i] - start[i]) <= max_refinement_px &&
-          cv::norm(returned[i] - from[i]) <= max_return_px)
+          cv::norm(returned[i] - from[i]) <= max_return_px && !mask_.hides({to[i].x, to[i].y}))
         matches.push_back({guesses[i].point, {to[i].x, to[i].y}});
     return matches;
   }
@@ -151,6 +152,7 @@ class GridMatcher : public DenseMatcher {
     return found;
   }
 
+  ImageMask mask_;
   cv::Mat even_;
   std::vector<Eigen::Vector2f> grid_;
   GridDescriptors described_;
@@ -159,17 +161,18 @@ class GridMatcher : public DenseMatcher {
 
 }  // namespace
 
-std::vector<Eigen::Vector2f> denseGrid(int width, int height, int first_row) {
+std::vector<Eigen::Vector2f> denseGrid(int width, int height, const ImageMask& mask) {
+  mask.check(width, height);
   constexpr int margin = dense_grid_step;
   std::vector<Eigen::Vector2f> points;
-  for (int y = first_row + margin; y < height - margin; y += dense_grid_step)
-    for (int x = margin; x < width - margin; x += dense_grid_step)
-      points.emplace_back(static_cast<float>(x), static_cast<float>(y));
+  for (int y = mask.rows_from_top + margin; y < height - margin; y += dense_grid_step)
+    for (int x = margin; x < width - margin; x += dense_grid_step) points.emplace_back(x, y);
+  std::erase_if(points, [&](const Eigen::Vector2f& point) { return mask.hides(point); });
   return points;
 }
 
-std::unique_ptr<DenseMatcher> gridMatcher(const ImageView& query, int first_row) {
-  return std::make_unique<GridMatcher>(query, first_row);
+std::unique_ptr<DenseMatcher> gridMatcher(const ImageView& query, const ImageMask& mask) {
+  return std::make_unique<GridMatcher>(query, mask);
 }
 
 }  // namespace vmcl

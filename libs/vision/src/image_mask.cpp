@@ -1,47 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "image_mask.h"
+#include "vmcl/vision/image_mask.h"
 
-#include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
 namespace vmcl {
 
-ImageMask::ImageMask(const ImageView& mask, cv::Size image_size, int rows_from_top) {
-  if (mask.empty()) return;
-  if (mask.width != image_size.width || mask.height != image_size.height || mask.channels != 1 ||
-      mask.row_bytes < static_cast<std::size_t>(mask.width))
-    throw std::invalid_argument("the mask is " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
-                                " pixels of " + std::to_string(mask.channels) + " channels, its image " +
-                                std::to_string(image_size.width) + " x " + std::to_string(image_size.height));
-  const cv::Mat all(image_size, CV_8UC1, const_cast<uint8_t*>(mask.pixels), mask.row_bytes);
-  hidden_ = all.rowRange(rows_from_top, image_size.height) >= 128;
-  cv::distanceTransform(~hidden_, pixels_to_hidden_, cv::DIST_L2, cv::DIST_MASK_5);
+void ImageMask::check(int width, int height) const {
+  if (rows_from_top < 0 || rows_from_top >= height)
+    throw std::invalid_argument("mask_rows_from_top is " + std::to_string(rows_from_top) + " of " +
+                                std::to_string(height) + " image rows");
+  if (white.empty()) return;
+  if (white.width != width || white.height != height || white.channels != 1 ||
+      white.row_bytes < static_cast<std::size_t>(width))
+    throw std::invalid_argument("the mask is " + std::to_string(white.width) + " x " + std::to_string(white.height) +
+                                " pixels of " + std::to_string(white.channels) + " channels, its image " +
+                                std::to_string(width) + " x " + std::to_string(height));
 }
 
-cv::Mat ImageMask::filled(const cv::Mat& grey) const {
-  if (hidden_.empty()) return grey;
-  constexpr int reach = 61;  // pixels over which surroundings are averaged
-  cv::Mat visible, sum, share, filled = grey.clone();
-  cv::Mat(~hidden_).convertTo(visible, CV_32F, 1.0 / 255);
-  grey.convertTo(sum, CV_32F);
-  const cv::Scalar mean = cv::mean(grey, ~hidden_);
-  cv::blur(sum.mul(visible), sum, {reach, reach});
-  cv::blur(visible, share, {reach, reach});
-  constexpr double share_of_mean = 1e-3;  // of the whole image, which is left where nothing near is visible
-  cv::Mat average = (sum + share_of_mean * mean[0]) / (share + share_of_mean);
-  average.convertTo(average, CV_8U);
-  average.copyTo(filled, hidden_);
-  return filled;
-}
-
-bool ImageMask::touches(const cv::KeyPoint& keypoint) const {
-  if (hidden_.empty()) return false;
-  const int column = std::clamp(static_cast<int>(std::lround(keypoint.pt.x)), 0, hidden_.cols - 1);
-  const int row = std::clamp(static_cast<int>(std::lround(keypoint.pt.y)), 0, hidden_.rows - 1);
-  return pixels_to_hidden_.at<float>(row, column) <= keypoint.size / 2;
+bool ImageMask::hides(const Eigen::Vector2f& pixel) const {
+  const Eigen::Vector2i at = pixel.array().round().cast<int>();
+  if (at.y() < rows_from_top) return true;
+  return !white.empty() && at.x() >= 0 && at.x() < white.width && at.y() >= 0 && at.y() < white.height &&
+         white.pixels[static_cast<std::size_t>(at.y()) * white.row_bytes + static_cast<std::size_t>(at.x())] >= 128;
 }
 
 }  // namespace vmcl

@@ -29,6 +29,9 @@ struct MapCamera {
   int mask_rows_from_top = 0;                     ///< rows that show the robot itself
   Image mask{};                                   ///< 255 where the image shows the robot itself; empty: nowhere
   DepthSource depth = DepthSource::none;
+
+  /// Of the camera's own pixels.
+  ImageMask imageMask() const { return {mask_rows_from_top, mask.view()}; }
 };
 
 /// A scene point seen from several keyframes.

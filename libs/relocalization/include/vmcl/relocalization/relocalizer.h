@@ -43,8 +43,7 @@ struct QueryImage {
   ImageView image;
   CameraCalibration calibration;
   Rigid3 robot_from_camera = Rigid3::Identity();
-  int mask_rows_from_top = 0;
-  ImageView mask{};  ///< white (128 or more) where the image shows the robot itself; empty: nowhere
+  ImageMask mask{};
 };
 
 /// Seconds spent in each step.

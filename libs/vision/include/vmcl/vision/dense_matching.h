@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "vmcl/vision/image.h"
+#include "vmcl/vision/image_mask.h"
 
 namespace vmcl {
 
@@ -28,13 +28,14 @@ class DenseMatcher {
 
 inline constexpr int dense_grid_step = 8;  ///< pixels between the points of denseGrid()
 
-/// Points all over an image of this size, the first rows left out.
-std::vector<Eigen::Vector2f> denseGrid(int width, int height, int first_row);
+/// Points all over an image of this size but for what the mask hides. Throws std::invalid_argument when that does not
+/// fit.
+std::vector<Eigen::Vector2f> denseGrid(int width, int height, const ImageMask& mask);
 
 /// The classical way, without weights: histograms of gradients at each point (as DAISY, Tola et al. 2010, upright) and
-/// on a grid of the query image below its first rows; of nearest ones, mutual but for the grid's step, those are kept
+/// on a grid of the query image; of nearest ones, mutual but for the grid's step, those are kept
 /// that move as their neighbours do, and refined to a part of a pixel by Lucas and Kanade's method there and back on
-/// images of normalized contrast.
-std::unique_ptr<DenseMatcher> gridMatcher(const ImageView& query, int first_row);
+/// images of normalized contrast. No match lies in what the mask hides, whose pixels the matcher keeps looking at.
+std::unique_ptr<DenseMatcher> gridMatcher(const ImageView& query, const ImageMask& mask);
 
 }  // namespace vmcl

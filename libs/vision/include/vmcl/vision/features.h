@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vmcl/geometry/camera.h"
-#include "vmcl/vision/image.h"
+#include "vmcl/vision/image_mask.h"
 
 namespace vmcl {
 
@@ -80,15 +80,13 @@ class FeatureExtractor {
   /// With the checksum of the model.
   const FeatureOptions& options() const;
 
-  /// Features of an image taken with this camera, strongest first, none of which reaches into the white of `mask`: a
-  /// grey image of the same size that is white (128 or more) where the robot itself is seen; empty: nowhere. Throws
-  /// std::invalid_argument when a size differs from the calibration's or the masked rows leave nothing of the image. A
-  /// blank image has none.
-  FeatureSet extract(const ImageView& image, const CameraCalibration& calibration, const ImageView& mask = {}) const;
+  /// Features of an image taken with this camera, strongest first, none of which reaches into what the mask hides.
+  /// Throws std::invalid_argument when a size differs from the calibration's or the mask does not fit. A blank image
+  /// has none.
+  FeatureSet extract(const ImageView& image, const CameraCalibration& calibration, const ImageMask& mask) const;
 
-  /// The same with other masked rows than those of the options.
-  FeatureSet extract(const ImageView& image, const CameraCalibration& calibration, const ImageView& mask,
-                     int mask_rows_from_top) const;
+  /// The same with the masked rows of the options.
+  FeatureSet extract(const ImageView& image, const CameraCalibration& calibration) const;
 
  private:
   FeatureOptions options_;

@@ -3,16 +3,14 @@
 
 #include <opencv2/core.hpp>
 
-#include "vmcl/vision/image.h"
+#include "vmcl/vision/image_mask.h"
 
 namespace vmcl {
 
-/// Where an image shows the robot itself, in the part of it below some rows.
-class ImageMask {
+/// What a mask hides of the part of an image below the mask's rows.
+class HiddenParts {
  public:
-  /// `mask`: grey, 128 or more where hidden; empty: nowhere. Throws std::invalid_argument unless it has the image's
-  /// size.
-  ImageMask(const ImageView& mask, cv::Size image_size, int rows_from_top);
+  explicit HiddenParts(const ImageMask& mask);
 
   /// The image with what is hidden replaced by a smooth continuation of its surroundings, in which no detector finds
   /// anything that would take a share of the features.
