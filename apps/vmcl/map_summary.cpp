@@ -84,6 +84,10 @@ void printSummary(const MapBuildReport& report, const KeyframeMap& map) {
             << "noise as estimated: " << report.sigma_px << " px";
   if (report.sigma_depth > 0) std::cout << ", depth " << 1000 * report.sigma_depth << " mm at 1 m";
   std::cout << "; median reprojection error " << report.median_reprojection_px << " px\n";
+  constexpr double beyond_chance = 1.5;
+  if (report.shared_error > beyond_chance)
+    std::cout << "images and given poses contradict each other: measurements count as " << report.shared_error
+              << " times as noisy beside the poses\n";
   for (std::size_t i = 0; i < map.cameras.size(); ++i) {
     const Eigen::Vector3d turn_deg = report.mount_correction[i] / degree;
     const Eigen::Vector3d& shift = report.mount_shift[i];

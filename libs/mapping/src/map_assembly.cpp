@@ -97,6 +97,7 @@ MapBuildReport reportOf(const KeyframeMap& map, const Reconstruction& scene, con
   for (const Landmark& landmark : map.landmarks)
     if (landmark.observation_count > 1) report.mean_observations += landmark.observation_count;
   report.mean_observations /= std::max(1, report.landmarks - result.tracks.seen_once);
+  report.shared_error = result.shared_error;
   report.sigma_px = result.noise.measurement.pixel;
   if (std::ranges::any_of(map.cameras, [](const MapCamera& camera) { return camera.depth != DepthSource::none; }))
     report.sigma_depth = result.noise.measurement.inverse_depth;

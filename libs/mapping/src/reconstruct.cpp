@@ -145,6 +145,33 @@ std::vector<Track> tracksOf(std::vector<ScenePoint> points) {
   return tracks;
 }
 
+/// How far the poses have moved from those given: root of the mean square, in the standard deviations that these have.
+double poseDeviation(const Reconstruction& scene, const MapBuilderOptions& options) {
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < scene.keyframes.size(); ++k) {
+    const PlanarPose moved = inverse(planarPart(scene.keyframes[k].map_from_robot)) * scene.map_from_robot[k];
+    if (options.sigma_position > 0) {
+      sum += (moved.x * moved.x + moved.y * moved.y) / (options.sigma_position * options.sigma_position);
+      count += 2;
+    }
+    if (options.sigma_heading > 0) {
+      sum += moved.phi * moved.phi / (options.sigma_heading * options.sigma_heading);
+      count += 1;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+/// Moves the scene, and learns what errors the measurements have, by themselves and together.
+void adjustAndJudge(Reconstruction& scene, ReconstructionResult& result, const MapBuilderOptions& options) {
+  AdjustmentNoise noise = result.noise;
+  noise.position /= result.shared_error;
+  noise.heading /= result.shared_error;
+  adjust(scene, noise);
+  result.noise.measurement = estimatedNoise(scene, noise.measurement);
+  result.shared_error = std::max(1.0, result.shared_error * poseDeviation(scene, options));
+}
+
 AdjustmentNoise firstNoise(const MapBuilderOptions& options) {
   return {{.pixel = options.sigma_px}, options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
           options.sigma_mount_shift,   options.sigma_focal,    options.sigma_radial};
@@ -162,7 +189,7 @@ ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions&
                                  const BuildProgress& progress) {
   const std::vector<MatchedPair> pairs = matchPairs(scene, options, progress);
   ReconstructionResult result{firstNoise(options), {}};
-  MeasurementNoise& noise = result.noise.measurement;
+  const MeasurementNoise& noise = result.noise.measurement;
   const bool has_depth = std::ranges::any_of(scene.depths, [](const auto& depths) { return !depths.empty(); });
   const int min_track_length = has_depth ? 2 : min_observations;
   double done = 0;
@@ -173,12 +200,10 @@ ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions&
         joinTracks(featureCounts(scene), consistentMatches(scene, pairs, poses, noise.pixel), min_track_length);
     result.tracks = {.seen = static_cast<int>(tracks.size())};
     placeTracks(scene, std::move(tracks), poses, noise, result.tracks);
-    adjust(scene, result.noise);
-    noise = estimatedNoise(scene, noise);
+    adjustAndJudge(scene, result, options);
   }
   placeTracks(scene, tracksOf(std::move(scene.points)), {}, noise, result.tracks);
-  adjust(scene, result.noise);
-  noise = estimatedNoise(scene, noise);
+  adjustAndJudge(scene, result, options);
   addPointsSeenOnce(scene, noise, result.tracks);
   return result;
 }

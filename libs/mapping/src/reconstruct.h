@@ -13,13 +13,18 @@ namespace vmcl {
 inline constexpr int min_observations = 3;
 
 struct ReconstructionResult {
-  AdjustmentNoise noise;  ///< with the measurements' as estimated
-  TrackCounts tracks;     ///< `covariance` is left to the caller
+  AdjustmentNoise noise;    ///< with the measurements' as estimated
+  TrackCounts tracks;       ///< `covariance` is left to the caller
+  double shared_error = 1;  ///< by how much less the measurements counted beside the given poses, see reconstruct()
 };
 
 /// Matches overlapping keyframes, joins the matches to tracks, triangulates them and adjusts everything. Done in
 /// rounds: as poses and mounts get better, what does not fit them is told apart more sharply. At last every feature
 /// with a measured depth that no track has becomes a point, seen once.
+///
+/// Errors that many features share (of lens, time stamps, the way that a detector drifts as it comes nearer) do not
+/// average out as their number says, and would bend the drive. They show where the poses end farther from those given
+/// than these are uncertain; measurements then count for less beside them, until that is no longer so.
 ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions& options,
                                  const BuildProgress& progress);
 
