@@ -28,6 +28,8 @@ struct Request {
   std::filesystem::path initial_pose;
   std::vector<double> kidnapping;  ///< at, skip; or empty
   double skipped = 0;
+  Disturbance disturbance{};
+  std::vector<double> dimming;  ///< at, for, light; or empty
   uint64_t seed = 1;
   int threads = 1;
   bool tables_only = false;
@@ -125,6 +127,9 @@ int localize(const Request& request) {
   Replay plan;
   plan.rawlog = config.rawlog_file;
   plan.skipped = request.skipped;
+  plan.disturbance = request.disturbance;
+  if (!request.dimming.empty()) plan.disturbance.dimming = {request.dimming[0], request.dimming[1], request.dimming[2]};
+  plan.seed = request.seed;
   if (!request.kidnapping.empty()) plan.kidnapping = {request.kidnapping[0], request.kidnapping[1]};
   if (request.start == "given") startNearTruth(*run.ground_truth, config, plan);
   Localizer localizer(config, loadMaps(config));
@@ -180,6 +185,16 @@ void addLocalizeVerb(CLI::App& app, int& exit_code) {
           "AT SKIP: carry the robot off AT s after the log's start: the next SKIP s are left out, odometry too")
       ->expected(2)
       ->check(CLI::PositiveNumber);
+  verb->add_option("--drop-images", request->disturbance.dropped_images, "Lose this share of the images, at random")
+      ->check(CLI::Range(0.0, 0.99));
+  verb->add_option("--dim", request->dimming,
+                   "AT FOR LIGHT: leave the cameras this part of the light, AT s after the log's start, FOR so many s; "
+                   "0: something covers them")
+      ->expected(3)
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--odometry-scale", request->disturbance.odometry_scale,
+                   "Multiply the distances that the odometry tells: a wrong wheel radius")
+      ->check(CLI::Range(0.01, 10.0));
   verb->add_option("--seed", request->seed, "Of everything random: same seed, same results")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -57,9 +57,11 @@ ProblemReport replay(const Replay& replay, Localizer& localizer, LocalizationRun
   ProgressBar bar;
   RawlogEntry entry;
   Gaps gaps(replay);
+  DisturbedDrive disturbed(replay.disturbance, replay.seed);
   try {
     while (reader.next(entry)) {
       bar.update("localizing", reader.progress());
+      if (!disturbed.disturb(entry.action.get(), entry.frame.get(), entry.observation.get())) continue;
       if (gaps.contain(entry, localizer)) continue;
       if (const auto frame = localizer.step(entry.action, entry.frame, entry.observation)) run.frames.push_back(*frame);
       for (const std::string& problem : localizer.takeProblems()) problems.add(replay.rawlog.string() + ": " + problem);

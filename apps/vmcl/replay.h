@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "problem_report.h"
+#include "vmcl/mrpt/disturbance.h"
 #include "vmcl/evaluation/localization_report.h"
 
 namespace vmcl {
@@ -16,6 +17,8 @@ struct Replay {
   double skipped = 0;                                       ///< s: so much of the log's start is left out,
   double begin = -std::numeric_limits<double>::infinity();  ///< and steps before this time
   std::optional<Kidnapping> kidnapping;
+  Disturbance disturbance{};
+  uint64_t seed = 1;  ///< of the images that get lost
 };
 
 /// Localizes the robot of the log; returns what was wrong with it. Throws std::runtime_error naming the log when

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "experiment_files.h"
 
 namespace vmcl {
@@ -52,6 +54,19 @@ TEST_F(ExperimentPlanTest, StartsAtEachOfTheTimes) {
   EXPECT_EQ(plan.skipped.back().name, "query.odometry.few.kidnapped-at-2s-for-1.5s");
   EXPECT_THAT(plan.skipped, testing::Contains(testing::Field(&SkippedCombination::reason,
                                                              "the ground truth ends before the robot starts")));
+}
+
+TEST_F(ExperimentPlanTest, ADisturbedLogIsReplayedDisturbed) {
+  const std::string disturbance =
+      "disturbance: {drop_images: 0.3, dim: {at: 20, for: 10, light: 0}, odometry_scale: 1.1}, ";
+  const Experiment experiment = read(with("maps:", disturbance + "maps:")), good = read(good_);
+  const Job job = planExperiment(experiment).jobs.front();
+  const std::vector<std::string> command = commandOf(experiment, job);
+  const std::vector<std::string> options{"--drop-images", "0.3", "--dim", "20", "10", "0", "--odometry-scale", "1.1"};
+  EXPECT_NE(std::search(command.begin(), command.end(), options.begin(), options.end()), command.end());
+  EXPECT_TRUE(optionsOf(good.sessions.front().disturbance).empty());
+  EXPECT_NE(JobDescriber(experiment).hashOf(job), JobDescriber(good).hashOf(job));
+  EXPECT_NE(JobDescriber(experiment).matchHashOf(job), JobDescriber(good).matchHashOf(job));
 }
 
 TEST_F(ExperimentPlanTest, SkipsAKidnappingBeyondTheGroundTruth) {

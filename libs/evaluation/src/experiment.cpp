@@ -16,6 +16,25 @@ namespace fs = std::filesystem;
 
 constexpr int max_seeds = 100'000;
 
+Disturbance readDisturbance(YamlMap& session, const std::string& key) {
+  YamlMap yaml = session.map(key);
+  Disturbance disturbance;
+  disturbance.dropped_images = yaml.get<double>("drop_images", disturbance.dropped_images);
+  disturbance.odometry_scale = yaml.get<double>("odometry_scale", disturbance.odometry_scale);
+  if (yaml.has("dim")) {
+    YamlMap dim = yaml.map("dim");
+    disturbance.dimming = {dim.get<double>("at"), dim.get<double>("for"), dim.get<double>("light")};
+    dim.finish();
+  }
+  yaml.finish();
+  try {
+    disturbance.check();
+  } catch (const std::invalid_argument& error) {
+    session.fail(key, std::string("has ") + error.what());
+  }
+  return disturbance;
+}
+
 /// Reads parts of the file; knows where relative paths start.
 class Reader {
  public:
@@ -32,6 +51,7 @@ class Reader {
       session.openloris = {openloris.get<std::string>("scene"), openloris.get<int>("sequence")};
       openloris.finish();
     }
+    if (yaml.has("disturbance")) session.disturbance = readDisturbance(yaml, "disturbance");
     yaml.finish();
     return session;
   }

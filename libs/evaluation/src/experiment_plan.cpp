@@ -107,8 +107,22 @@ std::vector<std::string> commandOf(const Experiment& experiment, const Job& job)
   if (start.after > 0) command.insert(command.end(), {"--skip", textOf(start.after)});
   if (start.kidnapping)
     command.insert(command.end(), {"--kidnap", textOf(start.kidnapping->at), textOf(start.kidnapping->skip)});
+  const std::vector<std::string> disturbance = optionsOf(session.disturbance);
+  command.insert(command.end(), disturbance.begin(), disturbance.end());
   command.insert(command.end(), {"--seed", std::to_string(job.seed), "--tables-only"});
   return command;
+}
+
+std::vector<std::string> optionsOf(const Disturbance& disturbance) {
+  std::vector<std::string> options;
+  const auto add = [&](const char* option, const std::vector<double>& values) {
+    options.emplace_back(option);
+    for (const double value : values) options.push_back(textOf(value));
+  };
+  if (disturbance.dropped_images > 0) add("--drop-images", {disturbance.dropped_images});
+  if (const auto& dim = disturbance.dimming) add("--dim", {dim->at, dim->lasts, dim->light});
+  if (disturbance.odometry_scale != 1) add("--odometry-scale", {disturbance.odometry_scale});
+  return options;
 }
 
 std::string nameOf(const Experiment& experiment, const Method& method) {

@@ -43,7 +43,7 @@ uint32_t JobDescriber::checksum(const std::filesystem::path& file) {
   return checksums_.emplace_back(file, crcOf(file)).second;
 }
 
-/// Contents of the files and the job's maps, and what is changed of the ini.
+/// Contents of the files and the job's maps, what is changed of the ini, and what is disturbed.
 std::string JobDescriber::textOfInputs(const Job& job, const std::vector<std::filesystem::path>& files) {
   std::string all;
   const auto add = [&](const std::string& part) { all += '\n' + part; };
@@ -51,6 +51,7 @@ std::string JobDescriber::textOfInputs(const Job& job, const std::vector<std::fi
   for (const auto& map : experiment_.sessions[job.session].maps)
     add(map.extension().string() + hexadecimal(checksum(map)));
   for (const std::string& change : experiment_.configurations[job.method.configuration].changes) add(change);
+  for (const std::string& option : optionsOf(experiment_.sessions[job.session].disturbance)) add(option);
   return all;
 }
 

@@ -13,7 +13,8 @@ void PlanarMonteCarlo::normalize() {
   normalizeWeights();
   double sum = 0;
   for (const auto& particle : m_particles) sum += std::exp(particle.log_w);
-  for (auto& particle : m_particles) particle.log_w -= std::log(sum);
+  const double log_sum = std::log(sum);
+  for (auto& particle : m_particles) particle.log_w -= log_sum;
 }
 
 /// What is replaced is drawn at random, so it must not matter which particle it is.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vmcl/evaluation/localization_report.h"
+#include "vmcl/mrpt/disturbance.h"
 #include "vmcl/mrpt/sensors.h"
 
 namespace vmcl {
@@ -25,6 +26,7 @@ struct ExperimentSession {
   std::vector<std::filesystem::path> maps;
   std::filesystem::path ground_truth;  ///< TUM format
   std::optional<OpenLorisSequence> openloris;
+  Disturbance disturbance{};
 };
 
 /// An ini and what is changed of it.

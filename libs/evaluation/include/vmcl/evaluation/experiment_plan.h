@@ -43,6 +43,9 @@ ExperimentPlan planExperiment(const Experiment& experiment);
 /// The arguments of `vmcl` that make the run, but for --out.
 std::vector<std::string> commandOf(const Experiment& experiment, const Job& job);
 
+/// Those of `vmcl localize` that make it; none where nothing is disturbed.
+std::vector<std::string> optionsOf(const Disturbance& disturbance);
+
 /// "camera", with the configuration's name if there are several.
 std::string nameOf(const Experiment& experiment, const Method& method);
 

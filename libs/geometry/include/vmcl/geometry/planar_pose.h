@@ -22,6 +22,7 @@ struct PlanarPose {
 
 /// The angle in (-pi, pi] that differs from `angle` by whole turns.
 inline double wrapAngle(double angle) {
+  if (angle > -std::numbers::pi && angle <= std::numbers::pi) return angle;  // remainder() takes its time
   const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
   return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
 }
