@@ -197,6 +197,23 @@ TEST_F(VisualKeyframeMapTest, CountsIndependentMatches) {
   EXPECT_NEAR(map.addLogLikelihoods(image, {&truth_, 1}, 1, sums), VisualMapOptions().match_weight * matches, 1e-9);
 }
 
+TEST_F(VisualKeyframeMapTest, FewMatchesCountAsAll) {
+  VisualMapOptions few, more;
+  few.max_matches = 10;
+  more.max_matches = 1'000'000;
+  const VisualKeyframeMap all({}, content_), some(few, content_), not_so_many(more, content_);
+  const CObservationImage image = imageFrom(truth_);
+  const PlanarPose elsewhere{truth_.x + 1, truth_.y, truth_.phi};
+  std::vector<double> of_all(1), of_some(1);
+  EXPECT_EQ(all.addLogLikelihoods(image, {&truth_, 1}, 1, of_all),
+            some.addLogLikelihoods(image, {&truth_, 1}, 1, of_some));
+  EXPECT_NE(of_all, of_some);
+  EXPECT_GT(of_some[0], logLikelihood(some, image, elsewhere));
+  EXPECT_EQ(logLikelihood(not_so_many, image, truth_), of_all[0]);
+  few.max_matches = -1;
+  EXPECT_THROW(few.check(), std::invalid_argument);
+}
+
 TEST_F(VisualKeyframeMapTest, ShowsLandmarksAndKeyframes) {
   const VisualKeyframeMap map({}, content_);
   const auto scene = map.getVisualization();

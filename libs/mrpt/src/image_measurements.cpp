@@ -13,6 +13,14 @@ namespace {
 
 constexpr std::size_t remembered = 16;  // images: more than the cameras of a robot
 
+/// So many of the matches, evenly spaced in their order, which goes from reference to reference.
+PoseProblem thinned(const PoseProblem& problem, std::size_t count) {
+  PoseProblem some{problem.query_cameras, problem.reference_cameras, {}};
+  const std::size_t all = problem.matches.size();
+  for (std::size_t i = 0; i < count; ++i) some.matches.push_back(problem.matches[i * all / count]);
+  return some;
+}
+
 }  // namespace
 
 double ImageMeasurement::logLikelihood(const PlanarPose& robot_in_map) const {
@@ -32,7 +40,7 @@ void ImageMeasurement::addLogLikelihoods(std::span<const PlanarPose> robot_in_ma
     for (std::size_t i = 0; i < some.size(); ++i) poses[i] = PlanarTransform(some[i]);
     likelihood->evaluate({poses.data(), some.size()}, {values.data(), some.size()});
     for (std::size_t i = 0; i < some.size(); ++i)
-      if (isFinite(some[i])) log_likelihoods[first + i] += match_weight * values[i];
+      if (isFinite(some[i])) log_likelihoods[first + i] += weight * values[i];
   }
 }
 
@@ -71,8 +79,12 @@ void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, Imag
   if (measurement.problem.matches.empty()) return;
   LikelihoodOptions of_particles = options_.relocalizer.estimator.likelihood;
   of_particles.sigma_px = options_.particle_sigma_px;
-  measurement.likelihood.emplace(measurement.problem, of_particles);
-  measurement.match_weight = options_.match_weight;
+  const std::size_t all = measurement.problem.matches.size();
+  const std::size_t most = options_.max_matches > 0 ? static_cast<std::size_t>(options_.max_matches) : all;
+  const std::size_t used = std::min(most, all);
+  measurement.independent_matches = options_.match_weight * static_cast<double>(all);
+  measurement.weight = measurement.independent_matches / static_cast<double>(used);
+  measurement.likelihood.emplace(used < all ? thinned(measurement.problem, used) : measurement.problem, of_particles);
 }
 
 }  // namespace vmcl

@@ -197,7 +197,7 @@ double VisualKeyframeMap::addLogLikelihoods(const mrpt::obs::CObservation& obser
   inParallel(static_cast<std::size_t>(threads), values.size() - made,
              [&](std::size_t first, std::size_t size) { weigh(made + first, size); });
   std::transform(values.begin(), values.end(), log_likelihoods.begin(), log_likelihoods.begin(), std::plus<>());
-  return measurement->independentMatches();
+  return measurement->independent_matches;
 } catch (const std::exception& error) {
   state_->tell(errorMessage(error));
   return 0;

@@ -16,6 +16,7 @@ void visitLikelihoodOptions(Options& options, Visit&& visit) {
   auto& relocalizer = options.relocalizer;
   visit("particle_sigma_px", options.particle_sigma_px);
   visit("match_weight", options.match_weight);
+  visit("max_matches", options.max_matches);
   visit("retrieved", relocalizer.retrieved);
   visit("reliable_depth", relocalizer.reliable_depth);
   visit("max_point_sigma", relocalizer.max_point_sigma);
@@ -58,6 +59,7 @@ void VisualMapOptions::check() const {
   demand("particle_sigma_px", particle_sigma_px);
   if (!(match_weight > 0 && match_weight <= 1))
     throw std::invalid_argument("match_weight = " + std::to_string(match_weight) + " is not in (0, 1]");
+  if (max_matches < 0) throw std::invalid_argument("max_matches = " + std::to_string(max_matches) + " is negative");
   FeatureOptions().choose(features);
   relocalizer.check();
   builder.check();

@@ -21,15 +21,14 @@ struct ImageMeasurement {
   std::string error;  ///< why the image cannot be used; empty: it can
   PoseProblem problem;
   std::optional<PoseLikelihood> likelihood;  ///< none without matches
-  double match_weight = 1;                   ///< factor of the log likelihood
+  double weight = 1;                         ///< factor of the log likelihood
+  double independent_matches = 0;            ///< that all matches together count as
 
   /// Weighted log likelihood; 0 when the image says nothing.
   double logLikelihood(const PlanarPose& robot_in_map) const;
 
   /// Adds it at many poses; sizes must agree.
   void addLogLikelihoods(std::span<const PlanarPose> robot_in_map, std::span<double> log_likelihoods) const;
-
-  double independentMatches() const { return match_weight * static_cast<double>(problem.matches.size()); }
 };
 
 /// Matches every image with the map once, however many particles ask. MRPT gives no sign of a new observation, so it is

@@ -28,6 +28,8 @@ struct VisualMapOptions {
                                  ///< map, with the same options; empty: none
   double particle_sigma_px = 5;  ///< [.._likelihoodOpts] pixel noise when particles are weighed
   double match_weight = 0.04;    ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
+  int max_matches = 0;           ///< [.._likelihoodOpts] most matches of an image that particles are weighed by, which
+                                 ///< count as all do; 0: all
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
                                    ///< sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations, max_modes
   std::string features = "sift";   ///< [.._insertOpts] sift or orb
