@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "landmark_covariance.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -27,7 +29,16 @@ double huberWeight(double deviations) { return std::sqrt(std::min(1.0, huber_thr
 /// A point's part of the normal equations.
 struct PointEquations {
   Block information = Block::Zero();
-  std::map<int, Block> coupling;  // pose or camera block by point
+  std::map<int, Block> coupling;                      // pose or camera block by point
+  std::map<std::pair<int, int>, Block> of_the_poses;  // poses and cameras by themselves
+
+  /// Whether the observations fix the point, given the poses. One that the adjustment drove far off or behind a camera
+  /// is not, and its equations are noise.
+  bool fixThePoint() const {
+    constexpr double least = 1e-10;  // of the information's smallest eigenvalue over the largest
+    const Eigen::SelfAdjointEigenSolver<Block> eigen(information, Eigen::EigenvaluesOnly);
+    return information.allFinite() && eigen.eigenvalues()[0] > least * eigen.eigenvalues()[2];
+  }
 };
 
 /// The lower triangle of a symmetric matrix of 3x3 blocks.
@@ -99,8 +110,7 @@ std::array<Block, 6> derivatives(const Reconstruction& scene, const MeasurementN
   return all;
 }
 
-PointEquations linearize(const Reconstruction& scene, const MeasurementNoise& noise, const ScenePoint& point,
-                         BlockMatrix& pose_information) {
+PointEquations linearize(const Reconstruction& scene, const MeasurementNoise& noise, const ScenePoint& point) {
   PointEquations equations;
   for (const Observation& seen : point.track) {
     const std::array<Block, 6> J = derivatives(scene, noise, seen, point.point_in_map);
@@ -108,15 +118,19 @@ PointEquations linearize(const Reconstruction& scene, const MeasurementNoise& no
     const std::array<int, 5> blocks = blocksOf(scene, seen.keyframe);
     for (std::size_t a = 0; a < 5; ++a) {
       equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[5];
-      for (std::size_t b = 0; b <= a; ++b) pose_information.add(blocks[a], blocks[b], J[a].transpose() * J[b]);
+      for (std::size_t b = 0; b <= a; ++b)
+        equations.of_the_poses.try_emplace({blocks[a], blocks[b]}, Block::Zero()).first->second +=
+            J[a].transpose() * J[b];
     }
   }
   return equations;
 }
 
-/// Replaces each coupling W_b by V^-1 W_b^T, the point's answer to the block, having taken W_a V^-1 W_b^T out of the
-/// poses' information. Returns V^-1.
+/// Puts the point's part into the poses' information. Replaces each coupling W_b by V^-1 W_b^T, the point's answer to
+/// the block, having taken W_a V^-1 W_b^T out of the poses' information. Returns V^-1.
 Block eliminate(PointEquations& equations, BlockMatrix& pose_information) {
+  for (const auto& [place, block] : equations.of_the_poses) pose_information.add(place.first, place.second, block);
+  equations.of_the_poses.clear();
   const Block inverse = equations.information.ldlt().solve(Block::Identity());
   for (const auto& [a, W_a] : equations.coupling)
     for (const auto& [b, W_b] : equations.coupling)
@@ -143,8 +157,13 @@ std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const
   std::vector<Block> covariances;
   std::vector<PointEquations> equations;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    equations.push_back(linearize(scene, noise.measurement, scene.points[i], pose_information));
-    covariances.push_back(eliminate(equations.back(), pose_information));
+    equations.push_back(linearize(scene, noise.measurement, scene.points[i]));
+    if (equations.back().fixThePoint()) {
+      covariances.push_back(eliminate(equations.back(), pose_information));
+    } else {
+      covariances.push_back(Block::Constant(std::numeric_limits<double>::infinity()));
+      equations.back() = {};
+    }
   }
 
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> pose_solver(pose_information.toSparse());
