@@ -28,7 +28,16 @@ TEST(BundleAdjustment, SaysThatItFailed) {
   EXPECT_THROW(adjust(scene, {}), std::runtime_error);
 }
 
-TEST(LandmarkCovariance, SaysThatItFailed) { EXPECT_THROW(pointCovariances(brokenScene(), {}), std::runtime_error); }
+TEST(LandmarkCovariance, APointThatIsNotFixedHasNoneAndSpoilsNoOther) {
+  Reconstruction scene = brokenScene();
+  scene.points.push_back({{5, 0, 0.4}, {{0, 0}, {1, 0}, {2, 0}}});
+  scene.points.push_back({{5e6, 0, 0.4}, {{0, 0}, {1, 0}, {2, 0}}});
+  for (int k = 0; k < 3; ++k) scene.map_from_robot[static_cast<std::size_t>(k)].y = 0.5 * k;
+  const std::vector<Eigen::Matrix3d> covariances = pointCovariances(scene, {});
+  EXPECT_FALSE(covariances[0].allFinite());
+  EXPECT_TRUE(covariances[1].allFinite()) << covariances[1];
+  EXPECT_FALSE(covariances[2].allFinite()) << covariances[2];
+}
 
 }  // namespace
 }  // namespace vmcl

@@ -36,8 +36,9 @@ struct PointEquations {
   /// is not, and its equations are noise.
   bool fixThePoint() const {
     constexpr double least = 1e-10;  // of the information's smallest eigenvalue over the largest
+    if (!information.allFinite()) return false;
     const Eigen::SelfAdjointEigenSolver<Block> eigen(information, Eigen::EigenvaluesOnly);
-    return information.allFinite() && eigen.eigenvalues()[0] > least * eigen.eigenvalues()[2];
+    return eigen.eigenvalues()[0] > least * eigen.eigenvalues()[2];
   }
 };
 
