@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   vmcl::addMapVerb(app, exit_code);
   vmcl::addLocalizeVerb(app, exit_code);
   vmcl::addRelocalizeVerb(app, exit_code);
+  vmcl::addSelectorVerb(app, exit_code);
   vmcl::addEvaluateVerb(app, exit_code);
   vmcl::addEstimateVerb(app, exit_code);
   vmcl::addBenchVerb(app, exit_code);

@@ -10,6 +10,7 @@
 #include "vmcl/evaluation/map_picture.h"
 #include "vmcl/geometry/atomic_file.h"
 #include "vmcl/mapping/map_file.h"
+#include "vmcl/relocalization/solution_choice.h"
 
 namespace vmcl {
 namespace {
@@ -115,6 +116,7 @@ int runMap(const MapArguments& arguments) {
   if (const std::string label = images.maskWithoutCamera(); !label.empty())
     throw std::runtime_error("map: --mask: no camera '" + label + "' in the input");
   auto [built, report] = builder.build([&](std::string_view stage, double share) { bar.update(stage, share); });
+  chooseByAnalysis(built, {});
   const auto map = std::make_shared<const KeyframeMap>(std::move(built));
   saveMap(arguments.output, *map);
   for (int session : sessionsApart(*map))

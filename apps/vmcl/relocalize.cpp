@@ -12,6 +12,7 @@
 #include "coverage.h"
 #include "odometry_reading.h"
 #include "ordered_parallel.h"
+#include "peer_methods.h"
 #include "progress_bar.h"
 #include "relocalization_report.h"
 #include "verbs.h"
@@ -19,7 +20,6 @@
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/query_image.h"
 #include "vmcl/relocalization/temporal_rig.h"
-#include "vmcl/study/pose_method.h"
 
 namespace vmcl {
 namespace {
@@ -30,18 +30,27 @@ struct Arguments {
   TemporalRigOptions temporal_rig{.frames = 1};
   bool rig = false;
   bool peers = false;
+  int every = 1;
   int threads = 1;
 };
 
 /// The images that are localized together: one, or those that the cameras of a rig took at the same time.
 using Shot = std::vector<CameraObservation>;
 
-/// Images as they come, or by the time they were taken at.
+/// Every `every`-th of the images as they come, or by the time they were taken at.
 class ShotReader {
  public:
-  ShotReader(CameraStream& stream, bool is_rig) : stream_(stream), is_rig_(is_rig) {}
+  ShotReader(CameraStream& stream, bool is_rig, int every) : stream_(stream), is_rig_(is_rig), every_(every) {}
 
   bool next(Shot& shot) {
+    for (int passed_over = 1; passed_over < every_ && taken_; ++passed_over)
+      if (!read(shot)) return false;
+    taken_ = read(shot);
+    return taken_;
+  }
+
+ private:
+  bool read(Shot& shot) {
     constexpr double same_time = 0.01;  // s
     shot.clear();
     while (waiting_ || (waiting_ = stream_.next())) {
@@ -54,9 +63,10 @@ class ShotReader {
     return !shot.empty();
   }
 
- private:
   CameraStream& stream_;
   bool is_rig_;
+  int every_;
+  bool taken_ = false;  ///< whether there was a shot before
   std::optional<CameraObservation> waiting_;
 };
 
@@ -83,25 +93,22 @@ class Estimation {
  public:
   Estimation(const Relocalizer& relocalizer, const Trajectory& groundtruth, bool with_peers)
       : relocalizer_(relocalizer), groundtruth_(groundtruth) {
-    if (!with_peers) return;
-    peers_ = poseMethods();
-    std::erase_if(peers_, [](const PoseMethod& method) { return !method.takes_rigs || method.name == "vmcl"; });
+    if (with_peers) peers_.emplace(relocalizer.map(), relocalizer.options());
   }
 
   void complete(Outcome& outcome) const {
     ImageResult& image = outcome.image;
-    const PoseProblem& problem = outcome.matched.problem;
     const auto start = std::chrono::steady_clock::now();
-    image.estimate = estimatePose(problem, relocalizer_.map(), relocalizer_.options().estimator);
+    image.estimate = estimatePose(outcome.matched, relocalizer_.map(), relocalizer_.options());
     image.times = outcome.matched.times;
     image.times.estimation = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    image.matches = problem.matches.size();
+    image.matches = outcome.matched.problem.matches.size();
     image.has_truth = groundtruth_.at(image.time, max_gap_).has_value();
     if (image.estimate.found()) image.error = errorOf(image, image.estimate.modes.front().robot_in_map);
-    for (const PoseMethod& peer : peers_) {
-      const std::vector<PlanarPose> poses = peer.estimate(problem, {.seed = relocalizer_.options().estimator.seed});
-      image.peers.push_back({peer.name, poses.empty() ? std::nullopt : errorOf(image, poses.front())});
-    }
+    image.references = referencesOf(outcome.matched);
+    if (!peers_) return;
+    for (const auto& [name, pose] : peers_->poses(outcome.matched))
+      image.peers.push_back({name, pose ? errorOf(image, *pose) : std::nullopt});
   }
 
  private:
@@ -111,7 +118,7 @@ class Estimation {
 
   const Relocalizer& relocalizer_;
   const Trajectory& groundtruth_;
-  std::vector<PoseMethod> peers_;
+  std::optional<PeerMethods> peers_;
   const double max_gap_ = EvaluationOptions().max_gap;
 };
 
@@ -139,7 +146,7 @@ std::vector<ImageResult> relocalizeAll(CameraStream& stream, const Relocalizer& 
                                        const Trajectory& groundtruth, const Arguments& arguments) {
   std::vector<ImageResult> results;
   ProgressBar bar;
-  ShotReader reader(stream, arguments.rig);
+  ShotReader reader(stream, arguments.rig, arguments.every);
   const Estimation estimation(relocalizer, groundtruth, arguments.peers);
   std::optional<FrameTie> tie;
   if (arguments.temporal_rig.frames > 1) tie.emplace(arguments.temporal_rig, readOdometry(arguments.rawlog));
@@ -183,6 +190,7 @@ ExitCode run(const Arguments& arguments) {
     std::filesystem::create_directories(directory);
     writeResults(directory / "relocalize.csv", results);
     writeTiming(directory / "timing.csv", results);
+    if (arguments.peers) writePeers(directory / "peers.csv", results);
   }
   printTable(results);
   return problems.empty() ? exit_done : exit_some_input_bad;
@@ -196,7 +204,7 @@ void addRelocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--map", arguments->map, "Map to find the robot in (.vmap)")->required();
   verb->add_option("--rawlog", arguments->rawlog, "Log with the camera images")->required();
   verb->add_option("--groundtruth", arguments->groundtruth, "True poses (TUM format) to compare with");
-  verb->add_option("--out", arguments->out, "Directory for relocalize.csv and timing.csv");
+  verb->add_option("--out", arguments->out, "Directory for relocalize.csv, timing.csv and peers.csv");
   verb->add_option("--retrieved", arguments->options.retrieved, "Keyframes that each image is matched with")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
@@ -210,6 +218,19 @@ void addRelocalizeVerb(CLI::App& app, int& exit_code) {
                    "Frames localized together, tied by odometry; 0.25 m or 20 deg apart")
       ->capture_default_str()
       ->check(CLI::Range(1, 100));
+  verb->add_option_function<std::string>(
+          "--solution",
+          [arguments](const std::string& name) {
+            arguments->options.solution_of_map = name == "map";
+            arguments->options.estimator.solver = name == "1p1dp" ? Solver::one_point_one_depth
+                                                  : name == "2dp" ? Solver::two_depth
+                                                                  : Solver::automatic;
+          },
+          "Samples drawn: of one kind, 1p1dp or 2dp; both (the default); or map, of the kind that the keyframes name")
+      ->check(CLI::IsMember({"1p1dp", "2dp", "both", "map"}));
+  verb->add_option("--every", arguments->every, "Take only every such image, or shot of a rig")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000));
   verb->add_flag("--rig", arguments->rig, "Localize images that several cameras took at the same time together");
   verb->add_flag("--peers", arguments->peers, "Also say how well other methods do from the same matches");
   verb->add_option("--seed", arguments->options.estimator.seed, "Same seed, same answers")

@@ -21,6 +21,7 @@ void addImportVerb(CLI::App& app, int& exit_code);
 void addLocalizeVerb(CLI::App& app, int& exit_code);
 void addMapVerb(CLI::App& app, int& exit_code);
 void addRelocalizeVerb(CLI::App& app, int& exit_code);
+void addSelectorVerb(CLI::App& app, int& exit_code);
 void addSimulateVerb(CLI::App& app, int& exit_code);
 
 }  // namespace vmcl

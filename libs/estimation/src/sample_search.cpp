@@ -7,7 +7,7 @@
 
 #include "best_distinct.h"
 #include "minimal_sampler.h"
-#include "samples_needed.h"
+#include "vmcl/estimation/sample_worth.h"
 
 namespace vmcl {
 namespace {

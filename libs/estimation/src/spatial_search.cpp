@@ -8,10 +8,10 @@
 #include <map>
 
 #include "best_distinct.h"
-#include "samples_needed.h"
 #include "three_points.h"
 #include "upright_points.h"
 #include "vmcl/estimation/match_rays.h"
+#include "vmcl/estimation/sample_worth.h"
 #include "vmcl/geometry/random.h"
 
 namespace vmcl {

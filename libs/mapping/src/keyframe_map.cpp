@@ -84,6 +84,9 @@ void KeyframeMap::check() const {
     require(keyframe.camera >= 0 && keyframe.camera < std::ssize(cameras),
             name + ": no camera " + std::to_string(keyframe.camera));
     require(keyframe.session >= 0, name + ": session is negative");
+    require(keyframe.solution == Solver::automatic || keyframe.solution == Solver::one_point_one_depth ||
+                keyframe.solution == Solver::two_depth,
+            name + ": solution is none of auto, 1p1dp and 2dp");
     checkPose(keyframe.map_from_robot, name);
     checkFeatures(keyframe.features, feature_options.kind, name);
     const PinholeCamera& pinhole = cameras[static_cast<std::size_t>(keyframe.camera)].calibration.pinhole;

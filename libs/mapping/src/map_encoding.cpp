@@ -22,7 +22,9 @@
 //   places      rows, columns (counts), f32 by columns
 //   network     file (count, bytes), its CRC-32 u32; no bytes and 0 where features are not those of a network
 //   dense       each keyframe: image (count, bytes), depths (count, u16[]); counts 0 in a map that is not dense
-// Version 2 had neither masks nor sources of depth nor sessions nor networks nor dense data.
+//   solutions   u8 a keyframe: 0 both, 1 1P1DP, 2 2DP
+// Version 3 had no solutions; version 2 neither them nor masks nor sources of depth nor sessions nor networks nor dense
+// data.
 
 namespace vmcl {
 namespace {
@@ -210,6 +212,7 @@ std::string encodeContent(const KeyframeMap& map) {
     putCounted(out, keyframe.dense.image);
     putCounted(out, keyframe.dense.depth);
   }
+  for (const Keyframe& keyframe : map.keyframes) out.put(static_cast<uint8_t>(keyframe.solution));
   return out.take();
 }
 
@@ -238,6 +241,8 @@ KeyframeMap decodeContent(std::string_view content, uint32_t version) {
       getCounted(in, keyframe.dense.depth);
     }
   }
+  if (version > 3)
+    for (Keyframe& keyframe : map.keyframes) keyframe.solution = static_cast<Solver>(in.get<uint8_t>());
   if (!in.remaining().empty()) throw std::runtime_error("content is followed by bytes that do not belong to it");
   map.check();
   return map;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/relocalization/relocalizer.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,8 +9,10 @@
 #include <utility>
 
 #include "dense_correspondences.h"
+#include "largest_sigma.h"
 #include "match_candidate.h"
 #include "reference_depth.h"
+#include "vmcl/relocalization/solution_choice.h"
 
 namespace vmcl {
 namespace {
@@ -35,11 +36,6 @@ class Stopwatch {
 double inlierOdds(float ratio, FeatureKind kind) {
   const bool is_known = kind == FeatureKind::sift || kind == FeatureKind::orb;
   return is_known ? std::exp(11 * (0.63 - std::max(double{ratio}, 0.26))) : 1;
-}
-
-double largestSigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 std::shared_ptr<const KeyframeMap> checked(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options) {
@@ -84,6 +80,13 @@ PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, co
     mode.covariance += map_from_robot * map.pose_covariance * map_from_robot.transpose();
   }
   return estimate;
+}
+
+PoseEstimate estimatePose(const RelocalizationResult& matched, const KeyframeMap& map,
+                          const RelocalizerOptions& options) {
+  EstimatorOptions estimator = options.estimator;
+  if (options.solution_of_map) estimator.solver = chosenSolution(map, matched);
+  return estimatePose(matched.problem, map, estimator);
 }
 
 struct Relocalizer::State {
@@ -201,7 +204,7 @@ RelocalizationResult Relocalizer::match(std::span<const QueryImage> images) cons
 RelocalizationResult Relocalizer::relocalize(std::span<const QueryImage> images) const {
   RelocalizationResult result = match(images);
   Stopwatch stopwatch;
-  result.estimate = estimatePose(result.problem, map(), state_->options.estimator);
+  result.estimate = estimatePose(result, map(), state_->options);
   stopwatch.addTo(result.times.estimation);
   return result;
 }

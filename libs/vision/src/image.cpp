@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "vmcl/geometry/atomic_file.h"
+
 namespace vmcl {
 namespace {
 
@@ -68,32 +70,57 @@ std::string readBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-Image decode(const std::string& bytes) {
+cv::Mat decode(const std::string& bytes, int mode) {
   const ImageSize size = imageSize(bytes);
   if (size.width * size.height > max_image_pixels)
     throw std::runtime_error("image of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
                              " pixels; at most 100 megapixels are read");
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   // An orientation tag would turn the pixels away from the calibration.
-  const cv::Mat grey = cv::imdecode(encoded, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  if (grey.empty()) throw std::runtime_error("image data is broken");
+  const cv::Mat image = cv::imdecode(encoded, mode | cv::IMREAD_IGNORE_ORIENTATION);
+  if (image.empty()) throw std::runtime_error("image data is broken");
+  return image;
+}
+
+Image decodeGrey(const std::string& bytes) {
+  const cv::Mat grey = decode(bytes, cv::IMREAD_GRAYSCALE);
   return {grey.cols, grey.rows, std::vector<uint8_t>(grey.begin<uint8_t>(), grey.end<uint8_t>())};
+}
+
+cv::Mat matrixOf(const ImageView& image) {
+  return {image.height, image.width, image.channels == 1 ? CV_8UC1 : CV_8UC3, const_cast<uint8_t*>(image.pixels),
+          image.row_bytes};
 }
 
 }  // namespace
 
 Image readImage(const std::filesystem::path& file) {
   try {
-    return decode(readBytes(file));
+    return decodeGrey(readBytes(file));
   } catch (const std::exception& error) {  // also what OpenCV throws
     throw std::runtime_error(file.string() + ": " + error.what());
   }
 }
 
+ColourImage readColourImage(const std::filesystem::path& file) try {
+  const cv::Mat image = decode(readBytes(file), cv::IMREAD_COLOR);
+  return {image.cols, image.rows, std::vector<uint8_t>(image.datastart, image.dataend)};
+} catch (const std::exception& error) {
+  throw std::runtime_error(file.string() + ": " + error.what());
+}
+
+void writePng(const std::filesystem::path& file, const ImageView& image) {
+  if (image.empty()) throw std::invalid_argument("no image to write");
+  std::vector<uint8_t> bytes;
+  cv::imencode(".png", matrixOf(image), bytes);
+  AtomicFile out(file);
+  out.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.commit();
+}
+
 std::vector<uint8_t> compressImage(const ImageView& image) {
   if (image.empty()) throw std::invalid_argument("no image to compress");
-  cv::Mat pixels(image.height, image.width, image.channels == 1 ? CV_8UC1 : CV_8UC3,
-                 const_cast<uint8_t*>(image.pixels), image.row_bytes);
+  cv::Mat pixels = matrixOf(image);
   if (image.channels != 1) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2GRAY);
   std::vector<uint8_t> bytes;
   cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
@@ -101,7 +128,7 @@ std::vector<uint8_t> compressImage(const ImageView& image) {
 }
 
 Image decompressImage(const std::vector<uint8_t>& bytes) try {
-  return decode(std::string(bytes.begin(), bytes.end()));
+  return decodeGrey(std::string(bytes.begin(), bytes.end()));
 } catch (const cv::Exception& error) {
   throw std::runtime_error(error.err);
 }

@@ -78,13 +78,16 @@ cv::Size Network::inputSize(cv::Size image) const {
   return fixed_size_.empty() ? cv::Size(image.width / 8 * 8, image.height / 8 * 8) : fixed_size_;
 }
 
-std::vector<cv::Mat> Network::run(std::span<const cv::Mat> grey_images) const try {
+std::vector<cv::Mat> Network::run(std::span<const cv::Mat> images) const try {
   const std::scoped_lock lock(mutex_);
   const QuietOpenCv quiet;
-  for (std::size_t i = 0; i < grey_images.size(); ++i) {
-    cv::Mat image = grey_images[i];
-    if (channels_ == 3) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
-    net_.setInput(cv::dnn::blobFromImage(image, 1 / 255.0), input_names_[i]);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    cv::Mat image = images[i];
+    if (channels_ == 3 && image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
+    if (image.channels() != channels_)
+      throw std::runtime_error("its input has one channel, not those of a colour image");
+    constexpr bool from_bgr_to_rgb = true;
+    net_.setInput(cv::dnn::blobFromImage(image, 1 / 255.0, {}, {}, from_bgr_to_rgb), input_names_[i]);
   }
   std::vector<cv::Mat> outputs;
   net_.forward(outputs, output_names_);
@@ -94,8 +97,8 @@ std::vector<cv::Mat> Network::run(std::span<const cv::Mat> grey_images) const tr
   }
   return outputs;
 } catch (const cv::Exception& error) {
-  refuse("OpenCV cannot run this model on an image of " + std::to_string(grey_images[0].cols) + " x " +
-         std::to_string(grey_images[0].rows) + " pixels: " + error.err);
+  refuse("OpenCV cannot run this model on an image of " + std::to_string(images[0].cols) + " x " +
+         std::to_string(images[0].rows) + " pixels: " + error.err);
 } catch (const std::runtime_error& error) {
   refuse(error.what());
 }

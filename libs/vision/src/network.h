@@ -20,9 +20,9 @@ class Network {
   /// Size that the network wants its images in: one of its own, or any, up to what a multiple of 8 leaves over.
   cv::Size inputSize(cv::Size image) const;
 
-  /// Runs on grey images of size inputSize(). Throws std::runtime_error naming the file when that fails or an output
-  /// is not finite.
-  std::vector<cv::Mat> run(std::span<const cv::Mat> grey_images) const;
+  /// Runs on images of size inputSize(), grey or, if the network takes colours, BGR. Throws std::runtime_error naming
+  /// the file when that fails or an output is not finite.
+  std::vector<cv::Mat> run(std::span<const cv::Mat> images) const;
 
   /// To be thrown when the outputs are not what they should be.
   [[noreturn]] void refuse(const std::string& reason) const;

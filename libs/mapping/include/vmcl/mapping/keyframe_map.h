@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vmcl/estimation/pose_mixture.h"
 #include "vmcl/geometry/camera.h"
 #include "vmcl/geometry/planar_pose.h"
 #include "vmcl/geometry/pose_problem.h"
@@ -50,6 +51,7 @@ struct Keyframe {
   FeatureSet features;
   std::vector<int> landmark_of_feature;  ///< index into KeyframeMap::landmarks, -1 where none; one per feature
   DenseView dense{};
+  Solver solution = Solver::automatic;  ///< that suits matches with this keyframe: 1P1DP, 2DP, or automatic for both
 };
 
 /// What is kept of the places where the robot has been. Plain data; MapBuilder makes it, map_file.h stores it.

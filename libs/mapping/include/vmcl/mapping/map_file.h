@@ -11,7 +11,7 @@ namespace vmcl {
 
 /// The .vmap file: magic "VMCLMAP\n", format version, size and CRC-32 of the content, content (little endian; layout
 /// in map_encoding.cpp). The same map always gives the same bytes.
-inline constexpr uint32_t map_file_version = 3;
+inline constexpr uint32_t map_file_version = 4;
 inline constexpr uint32_t oldest_map_file_version = 2;  ///< that is still read
 
 /// Written aside, synced and renamed. Throws std::runtime_error naming the file.

@@ -33,6 +33,8 @@ struct RelocalizerOptions {
                                  ///< than the paper's 5 m, since each point carries its covariance
   /// Floors and tyres give a little, and place recognition may name places where the robot is not.
   EstimatorOptions estimator{.plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .in_sight_log_odds = -3};
+  /// Whether samples are drawn as the map's keyframes say (chosenSolution), not as estimator.solver does.
+  bool solution_of_map = false;
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
@@ -63,6 +65,10 @@ struct RelocalizationResult {
 
 /// estimatePose with the covariance of each mode widened by that of the map's poses, which all matches share.
 PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, const EstimatorOptions& options);
+
+/// The same from matches with keyframes, whose solution may choose the solver.
+PoseEstimate estimatePose(const RelocalizationResult& matched, const KeyframeMap& map,
+                          const RelocalizerOptions& options);
 
 /// Finds the robot in the map from its images alone: features, place recognition, matching, estimation. Thread safe.
 class Relocalizer {

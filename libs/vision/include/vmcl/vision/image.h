@@ -32,6 +32,19 @@ struct Image {
 /// Throws std::runtime_error naming the file: missing, no such image, cut off, or more than 100 megapixels.
 Image readImage(const std::filesystem::path& file);
 
+/// The same of a BGR image, 8 bit, rows from the top.
+struct ColourImage {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> pixels;  ///< BGR
+
+  ImageView view() const { return {pixels.data(), width, height, 3, static_cast<std::size_t>(3 * width)}; }
+};
+ColourImage readColourImage(const std::filesystem::path& file);
+
+/// Writes a grey or BGR image as PNG, aside and renamed. Throws std::runtime_error naming the file.
+void writePng(const std::filesystem::path& file, const ImageView& image);
+
 /// An image as grey JPEG of high quality, and back. compressImage throws std::invalid_argument for an empty image,
 /// decompressImage std::runtime_error for bytes that are none.
 std::vector<uint8_t> compressImage(const ImageView& image);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vmcl/estimation/sample_worth.h"
+#include "vmcl/mapping/keyframe_map.h"
+#include "vmcl/relocalization/relocalizer.h"
+#include "vmcl/vision/solution_network.h"
+
+namespace vmcl {
+
+/// What samples of either solution are worth with matches of one keyframe.
+struct SolutionAnalysis {
+  MatchRates rates;
+  SampleWorth one_point_one_depth, two_depth;
+
+  /// The one whose sample rather leads to the truth; automatic where none ever does.
+  Solver best() const;
+};
+
+/// From the keyframe's landmarks alone, those that count as reliable by the options: their places, covariances and
+/// numbers of observations n: each but the first halves the chance that the depth is wrong. Inlier rates, which nobody
+/// knows before the query, are the estimator's prior; the noise of pixels is MapBuilder's.
+SolutionAnalysis analyzeSolutions(const KeyframeMap& map, const Keyframe& keyframe, const RelocalizerOptions& options);
+
+/// Sets Keyframe::solution of all by the analysis.
+void chooseByAnalysis(KeyframeMap& map, const RelocalizerOptions& options);
+
+/// By a network, where the keyframe has landmarks; elsewhere by the analysis. Throws std::runtime_error when the
+/// network fails.
+void chooseByNetwork(KeyframeMap& map, const SolutionNetwork& network, const RelocalizerOptions& options);
+
+/// What the keyframes that matches were found with say, each as often as it has matches; automatic if they say nothing
+/// or both alike.
+Solver chosenSolution(const KeyframeMap& map, const RelocalizationResult& matched);
+
+}  // namespace vmcl
