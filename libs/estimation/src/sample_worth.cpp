@@ -2,12 +2,15 @@
 #include "vmcl/estimation/sample_worth.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "vmcl/estimation/depth_points.h"
 #include "vmcl/estimation/match_information.h"
+#include "vmcl/estimation/one_point_one_depth.h"
 #include "vmcl/geometry/random.h"
 
 namespace vmcl {
@@ -64,6 +67,61 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Draws the errors of two right matches and solves them: the solvers are far from linear where roots are double.
+class NoisySample {
+ public:
+  NoisySample(const QueryCamera& query, const ReferenceCamera& reference, const PlanarPose& map_from_robot,
+              double sigma_px, Random& random)
+      : query_(query),
+        reference_(reference),
+        robot_from_map_(toRigid3(map_from_robot).inverse()),
+        sigma_px_(sigma_px),
+        random_(random) {}
+
+  /// 1P1DP of the first point's depth and the rays to the second.
+  PlanarRoots onePointOneDepth(const MapPoint& first, const MapPoint& second) {
+    const Ray in_map{reference_.map_from_camera.translation(),
+                     reference_.map_from_camera.linear() *
+                         noisyRay(reference_.camera, reference_.map_from_camera.inverse() * second.point_in_map)};
+    return solveOnePointOneDepth(withDepth(first), {queryRay(second.point_in_map), in_map});
+  }
+
+  std::optional<PlanarTransform> twoDepth(const MapPoint& first, const MapPoint& second) {
+    return solveDepthPoints(std::array{withDepth(first), withDepth(second)});
+  }
+
+ private:
+  Eigen::Vector3d noisyRay(const PinholeCamera& camera, const Eigen::Vector3d& point_in_camera) {
+    const Eigen::Vector2d noise(random_.normal(), random_.normal());
+    return camera.ray(camera.project(point_in_camera) + sigma_px_ * noise);
+  }
+
+  Ray queryRay(const Eigen::Vector3d& point_in_map) {
+    const Rigid3& mount = query_.robot_from_camera;
+    return {mount.translation(),
+            mount.linear() * noisyRay(query_.camera, mount.inverse() * (robot_from_map_ * point_in_map))};
+  }
+
+  /// The map has the point where it believes it to be; the camera sees it where it is.
+  RayToPoint withDepth(const MapPoint& point) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(point.covariance);
+    const Eigen::Vector3d normal(random_.normal(), random_.normal(), random_.normal());
+    const Eigen::Vector3d error = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().cwiseProduct(normal);
+    return {queryRay(point.point_in_map + error), point.point_in_map};
+  }
+
+  const QueryCamera& query_;
+  const ReferenceCamera& reference_;
+  Rigid3 robot_from_map_;
+  double sigma_px_;
+  Random& random_;
+};
+
+bool isWithin(const Tolerance& tolerance, const PlanarTransform& found, const PlanarPose& truth) {
+  const Eigen::Vector3d error = difference(found.pose(), truth);
+  return error.head<2>().norm() <= tolerance.position && std::abs(error.z()) <= tolerance.heading;
+}
+
 }  // namespace
 
 void MatchRates::check() const {
@@ -85,7 +143,7 @@ double chanceOfGoodSample(Solver solver, const MatchRates& rates) {
 
 SampleWorth sampleWorth(Solver solver, const ReferenceView& view, const QueryCamera& query, const QuerySpread& spread,
                         const MatchRates& rates, double sigma_px, const Tolerance& tolerance) {
-  constexpr int samples = 256, draws = 4;  // of pairs, and of the error of each
+  constexpr int samples = 256, draws = 4;  // of pairs, and of the errors of each
   SampleWorth worth;
   worth.chance_good = chanceOfGoodSample(solver, rates);
   Random random(1);
@@ -102,14 +160,20 @@ SampleWorth sampleWorth(Solver solver, const ReferenceView& view, const QueryCam
                      (solver == Solver::two_depth ? informationWithDepth(query, map_from_robot, second, sigma_px)
                                                   : informationWithoutDepth(query, view.camera, map_from_robot,
                                                                             second.point_in_map, sigma_px)));
+    NoisySample sample(query, view.camera, map_from_robot, sigma_px, random);
+    for (int draw = 0; draw < draws; ++draw) {
+      if (solver == Solver::two_depth) {
+        const auto found = sample.twoDepth(first, second);
+        within += found && isWithin(tolerance, *found, map_from_robot);
+      } else {
+        const PlanarRoots found = sample.onePointOneDepth(first, second);
+        within += (found.count > 0 && isWithin(tolerance, found.roots[0], map_from_robot)) ||
+                  (found.count > 1 && isWithin(tolerance, found.roots[1], map_from_robot));
+      }
+    }
     if (!covariance) continue;
     positions.push_back(std::sqrt(covariance->topLeftCorner<2, 2>().trace()));
     headings.push_back(std::sqrt((*covariance)(2, 2)));
-    const Eigen::Matrix3d root = covariance->llt().matrixL();
-    for (int draw = 0; draw < draws; ++draw) {
-      const Eigen::Vector3d error = root * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-      within += error.head<2>().norm() <= tolerance.position && std::abs(error.z()) <= tolerance.heading;
-    }
   }
   if (positions.empty()) return {};
   worth.chance_within = static_cast<double>(within) / (draws * drawn);

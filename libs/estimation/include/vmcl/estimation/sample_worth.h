@@ -62,8 +62,9 @@ struct SampleWorth {
   double chance() const { return chance_good * chance_within; }
 };
 
-/// By linear propagation of pixel noise and of the points' covariances through samples of one solver, 1P1DP or 2DP, at
-/// 256 query poses and pairs of points that are in sight from there. All 0 where there are too few points or none is in
+/// At 256 query poses and pairs of points that are in sight from there, for one solver, 1P1DP or 2DP: the covariance by
+/// linear propagation of pixel noise and of the points' covariances, the chance within tolerance by drawing such errors
+/// and solving. All 0 where there are too few points or none is in
 /// sight. The same arguments give the same answer. Throws std::invalid_argument for other solvers and bad rates.
 SampleWorth sampleWorth(Solver solver, const ReferenceView& view, const QueryCamera& query, const QuerySpread& spread,
                         const MatchRates& rates, double sigma_px, const Tolerance& tolerance = {});

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trains a network that chooses between 1P1DP and 2DP, as Jiao et al. 2020 do (section V-B): SGD, batches of 12, 200
+epochs; classes drawn alike often, images mirrored. Writes MODEL.onnx and, after each epoch, MODEL.checkpoint, from
+which the same command goes on. One seed gives one network on one machine. Needs python3-torch and
+python3-torchvision.
+
+Example:
+  train.py --architecture compact data/hall data/house data/rooms -o compact.onnx --validate data/office
+"""
+import argparse
+import os
+import sys
+from pathlib import Path
+
+import torch
+from torch import nn
+
+from examples import balanced_order, fail, flipped, read_folders
+from networks import ARCHITECTURES, Normalized, export
+
+
+def make_network(arguments, images):
+    network = ARCHITECTURES[arguments.architecture]()
+    if arguments.weights:
+        weights = torch.load(arguments.weights, map_location='cpu')
+        kept = {name: value for name, value in weights.items() if not name.startswith('fc.')}
+        network.load_state_dict(kept, strict=False)
+    scaled = images.float() / 255
+    deviation = scaled.std((0, 2, 3)).clamp_min(1e-3)
+    return Normalized(network, scaled.mean((0, 2, 3)), deviation)
+
+
+def outputs_of(network, images, device):
+    network.eval()
+    with torch.no_grad():
+        return torch.cat([network(batch.to(device).float() / 255).cpu() for batch in images.split(12)])
+
+
+def train_epoch(network, optimizer, images, better, device, generator):
+    """Returns the mean loss."""
+    network.train()
+    losses = []
+    for indices in balanced_order(better, generator).split(12):
+        if len(indices) < 2:  # batch normalization needs more
+            continue
+        batch = flipped(images[indices].to(device).float() / 255, generator)
+        loss = nn.functional.cross_entropy(network(batch), better[indices].to(device))
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+        losses.append(loss.item())
+    return sum(losses) / len(losses)
+
+
+def save_checkpoint(file, epoch, network, optimizer, scheduler, generator):
+    aside = f'{file}.part'
+    torch.save({'epoch': epoch, 'network': network.state_dict(), 'optimizer': optimizer.state_dict(),
+                'scheduler': scheduler.state_dict(), 'generator': generator.get_state()}, aside)
+    os.replace(aside, file)
+
+
+def load_checkpoint(file, network, optimizer, scheduler, generator):
+    """Returns how many epochs are done."""
+    state = torch.load(file, map_location='cpu')
+    network.load_state_dict(state['network'])
+    optimizer.load_state_dict(state['optimizer'])
+    scheduler.load_state_dict(state['scheduler'])
+    generator.set_state(state['generator'])
+    return state['epoch']
+
+
+def accuracy(network, images, better, device):
+    """Mean over the solutions of the share chosen rightly."""
+    right = outputs_of(network, images, device).argmax(1) == better
+    return sum(right[better == solution].float().mean().item() for solution in (0, 1)) / 2
+
+
+def train(arguments):
+    torch.manual_seed(arguments.seed)
+    generator = torch.Generator().manual_seed(arguments.seed)
+    device = torch.device('cuda' if torch.cuda.is_available() else 'cpu')
+    images, better = read_folders(arguments.folders)
+    validation = read_folders(arguments.validate) if arguments.validate else None
+    network = make_network(arguments, images).to(device)
+    optimizer = torch.optim.SGD(network.parameters(), lr=arguments.rate, momentum=0.9, weight_decay=1e-4)
+    scheduler = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, arguments.epochs)
+    checkpoint = Path(arguments.output).with_suffix('.checkpoint')
+    done = 0
+    if checkpoint.exists():
+        done = load_checkpoint(checkpoint, network, optimizer, scheduler, generator)
+    counts = torch.bincount(better, minlength=2).tolist()
+    print(f'{counts[0]} examples of 1P1DP, {counts[1]} of 2DP; on {device}, {done} epochs done before')
+    for epoch in range(done, arguments.epochs):
+        loss = train_epoch(network, optimizer, images, better, device, generator)
+        scheduler.step()
+        save_checkpoint(checkpoint, epoch + 1, network, optimizer, scheduler, generator)
+        if sys.stdout.isatty() or (epoch + 1) % 10 == 0 or epoch + 1 == arguments.epochs:
+            print(f'epoch {epoch + 1} of {arguments.epochs}: loss {loss:.4f}', flush=True)
+    print(f'right on the training set: {100 * accuracy(network, images, better, device):.1f} %')
+    if validation:
+        print(f'right on the validation set: {100 * accuracy(network, *validation, device):.1f} %')
+    export(network, images.shape[3], images.shape[2], arguments.output)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('folders', nargs='+', help='as vmcl selector data wrote them')
+    parser.add_argument('-o', '--output', required=True, help='the .onnx file to write')
+    parser.add_argument('--architecture', choices=ARCHITECTURES, default='compact')
+    parser.add_argument('--weights', help="file of torchvision's weights of ImageNet to start ResNet-101 from")
+    parser.add_argument('--validate', nargs='+', default=[], help='folders of other scenes, to see what was learnt')
+    parser.add_argument('--epochs', type=int, default=200)
+    parser.add_argument('--rate', type=float, default=0.01, help='of learning at the start; falls as a cosine')
+    parser.add_argument('--seed', type=int, default=1)
+    try:
+        train(parser.parse_args())
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
+        fail(' '.join(str(error).split()))
+
+
+if __name__ == '__main__':
+    main()
