@@ -64,6 +64,7 @@ TEST_F(MapFile, KeepsEveryValue) {
   EXPECT_EQ(loaded.keyframes[2].dense.image, map.keyframes[2].dense.image);
   EXPECT_EQ(loaded.keyframes[1].dense.depth, map.keyframes[1].dense.depth);
   EXPECT_TRUE(loaded.keyframes[2].dense.depth.empty());
+  EXPECT_EQ(loaded.keyframes[1].solution, Solver::two_depth);
   EXPECT_TRUE(loaded.isDense());
   EXPECT_EQ(loaded.landmarks[3].point_in_map, map.landmarks[3].point_in_map);
   EXPECT_EQ(loaded.landmarks[3].covariance, map.landmarks[3].covariance);
@@ -71,9 +72,11 @@ TEST_F(MapFile, KeepsEveryValue) {
   EXPECT_EQ(loaded.place_descriptors, map.place_descriptors);
 }
 
-// The file was written by the program that wrote version 2.
-TEST_F(MapFile, OpensTheVersionBefore) {
+// The files were written by the programs that wrote those versions.
+TEST_F(MapFile, OpensTheVersionsBefore) {
   KeyframeMap expected = smallMap();
+  for (Keyframe& keyframe : expected.keyframes) keyframe.solution = Solver::automatic;
+  EXPECT_EQ(encodeMap(loadMap(std::filesystem::path(VMCL_TEST_DATA_DIR) / "version3.vmap")), encodeMap(expected));
   expected.cameras[1].mask = {};
   expected.cameras[1].depth = DepthSource::none;
   expected.keyframes[2].session = 0;

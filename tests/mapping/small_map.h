@@ -43,6 +43,7 @@ inline KeyframeMap smallMap(uint64_t seed = 1) {
     map.keyframes.push_back(keyframe);
   }
   map.keyframes[1].dense.depth.assign(5 * 4, 1234);
+  map.keyframes[1].solution = Solver::two_depth;
   const Eigen::MatrixXf words =
       Eigen::MatrixXf::NullaryExpr(2, 256, [&] { return static_cast<float>(random.normal()); });
   map.vocabulary = VladVocabulary(FeatureKind::orb, words);

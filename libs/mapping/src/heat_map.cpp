@@ -28,7 +28,9 @@ std::vector<float> profile(double center, double sigma, int size, int& first) {
 class Canvas {
  public:
   Canvas(int width, int height)
-      : width_(width), height_(height), values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+      : width_(width),
+        height_(height),
+        values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Eigen::Vector3f::Zero()) {}
 
   void add(const Eigen::Vector2d& center, const Eigen::Vector2d& sigma, const Eigen::Vector3f& height) {
     int left = 0, top = 0;
@@ -54,7 +56,7 @@ class Canvas {
 
  private:
   int width_, height_;
-  std::vector<Eigen::Vector3f, Eigen::aligned_allocator<Eigen::Vector3f>> values_;
+  std::vector<Eigen::Vector3f> values_;
 };
 
 }  // namespace
