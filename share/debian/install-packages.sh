@@ -14,6 +14,7 @@ packages=(
   gnuplot-nox
   libopengv-dev # peers of vmcl bench
   # the rest serves the tests and the demo
+  python3-torch python3-torchvision # share/selector: to train networks, 250 MB
   libgtest-dev libgmock-dev libbenchmark-dev python3
   parallel slurm-wlm # share/cluster
   mrpt-apps mrpt-common # the stock pf-localization and its laser demo

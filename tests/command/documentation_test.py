@@ -6,7 +6,8 @@ from command import SOURCE, CommandTest, main
 
 PARAMETERS = (SOURCE / 'doc/parameters.md').read_text()
 VERBS = (['simulate'], ['import', 'tum'], ['import', 'openloris'], ['import', 'images'], ['map'], ['localize'],
-         ['evaluate'], ['relocalize'], ['estimate'], ['bench'])
+         ['evaluate'], ['relocalize'], ['estimate'], ['bench'], ['selector', 'data'],
+         ['selector', 'choose'], ['selector', 'ask'])
 
 
 class DocumentationTest(CommandTest):

@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 from command import DONE, FAILED, SAMPLE, SOME_INPUT_BAD, SOURCE, CommandTest, main
+from png import noise_png
 
 SELECTOR = SOURCE / 'share/selector'
 MAP = SAMPLE / 'sample.vmap'
@@ -49,10 +50,8 @@ class SelectorTest(CommandTest):
         return ['selector', 'choose', MAP, '-o', 'chosen.vmap', *arguments]
 
     def draw(self, count):
-        """Heat maps of the sample map's keyframes, labelled one and the other in turn."""
-        self.succeed('selector', 'data', '--map', MAP, '--rawlog', LOG, '--groundtruth', TRUTH, '--out', 'drawn',
-                     '--every', '20', '--width', '64', '--height', '48', '--all')
-        images = sorted(self.path('drawn').glob('*.png'))[:count]
+        """Heat maps of noise, labelled one and the other in turn."""
+        images = [self.write(f'drawn/{i}.png', noise_png(64, 48, seed=i)) for i in range(count)]
         lines = [f'{image.name},{("1p1dp", "2dp")[i % 2]}' for i, image in enumerate(images)]
         self.write('drawn/labels.csv', '\n'.join(['image,better', *lines]) + '\n')
         return images
@@ -105,7 +104,6 @@ class SelectorTest(CommandTest):
     @unittest.skipUnless(PYTHON, 'python3-torch and python3-torchvision are not here')
     def test_answers_are_those_of_pytorch(self):
         images = self.draw(3)
-        self.assertEqual(len(images), 3)
         for architecture in ('compact', 'resnet101'):
             expected = self.run_python('-c', COMPARE, SELECTOR, architecture, 'net.onnx', *images)
             self.assertEqual(expected.returncode, DONE, expected.stderr)
