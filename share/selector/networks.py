@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Networks that choose between 1P1DP and 2DP: in, a heat map of 1 x 3 x height x width, RGB in [0, 1]; out, two numbers."""
+"""Networks that choose between 1P1DP and 2DP: in, a heat map of 1 x 3 x height x width, RGB in [0, 1]; out, two
+numbers, the larger for the better solution, 1P1DP's first."""
 import torch
 from torch import nn
 from torchvision.models import resnet101

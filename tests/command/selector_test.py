@@ -34,7 +34,11 @@ from torchvision.io import ImageReadMode, read_image
 from networks import ARCHITECTURES, Normalized, export
 torch.manual_seed(3)
 images = torch.stack([read_image(file, ImageReadMode.RGB) for file in sys.argv[4:]])
-network = Normalized(ARCHITECTURES[sys.argv[2]](), torch.tensor([0.1, 0.2, 0.1]), torch.tensor([0.3, 0.2, 0.2])).eval()
+network = Normalized(ARCHITECTURES[sys.argv[2]](), torch.tensor([0.1, 0.2, 0.1]), torch.tensor([0.3, 0.2, 0.2]))
+with torch.no_grad():  # batch normalization sees images, as in training
+    for _ in range(10):
+        network(images.float() / 255)
+network.eval()
 export(network, images.shape[3], images.shape[2], sys.argv[3])
 for outputs in network(images.float() / 255).tolist():
     print(*outputs)
