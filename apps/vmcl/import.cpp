@@ -43,6 +43,7 @@ ImportReport runTum(const ImportArguments& arguments, const std::function<void(d
         << " rows; a rawlog cannot say so: give vmcl map --mask-rows-from-top, and mask_rows_from_top in the ini\n";
   ImportReport report;
   report.images = tum.images;
+  report.depth_images = tum.depth_images;
   report.odometry_readings = tum.odometry_readings;
   report.ground_truth_poses = tum.ground_truth_poses;
   report.problems = tum.problems;

@@ -109,6 +109,14 @@ class MapTest(CommandTest):
             with self.subTest(how):
                 self.assert_refused(self.map_of(self.spoil('map.rawlog', how)), f'{how}.rawlog', "'camera'")
 
+    def test_images_that_do_not_fit_or_show_nothing(self):
+        self.assert_refused(self.map_of(self.spoil('map.rawlog', 'small_images')), "'camera'", '320x200')
+        self.assert_refused(self.map_of(self.spoil('map.rawlog', 'white_images')), 'no features in any image')
+
+    def test_images_of_the_same_time(self):
+        """They are one place."""
+        self.assertIn(' 1 keyframes', self.succeed(*self.map_of(self.spoil('map.rawlog', 'same_times'))))
+
     def test_log_without_a_camera(self):
         self.assert_refused(self.map_of(self.spoil('map.rawlog', 'no_camera')), 'no_camera.rawlog', 'camera')
 

@@ -46,6 +46,12 @@ class RelocalizeTest(CommandTest):
                 self.assert_refused(self.relocalize(self.spoil('query.rawlog', how)), f'{how}.rawlog', "'camera'")
         self.assert_refused(self.relocalize(self.spoil('query.rawlog', 'no_camera')), 'no_camera.rawlog', 'camera')
 
+    def test_images_of_another_size(self):
+        self.assert_refused(self.relocalize(self.spoil('query.rawlog', 'small_images')), "'camera'", '320x200')
+
+    def test_images_that_show_nothing(self):
+        self.assertRegex(self.succeed(*self.relocalize(self.spoil('query.rawlog', 'white_images'))), r'found +0')
+
     def test_broken_ground_truth(self):
         self.write('broken.tum', '0 nan 0 0 0 0 0 1\n')
         self.assert_refused([*self.relocalize(), '--groundtruth', 'broken.tum'], 'broken.tum:1')

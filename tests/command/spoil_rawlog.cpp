@@ -32,12 +32,21 @@ void removeCamera(CRawlog& log) {
     if (std::dynamic_pointer_cast<CObservationImage>(log.getAsGeneric(i))) log.remove(i);
 }
 
+mrpt::img::CImage blank(int width, int height, int grey) {
+  mrpt::img::CImage image(width, height, mrpt::img::CH_GRAY);
+  image.filledRectangle(0, 0, width - 1, height - 1, mrpt::img::TColor(grey, grey, grey));
+  return image;
+}
+
 const std::map<std::string, std::function<void(CRawlog&)>> spoilers = {
     {"no_camera", removeCamera},
     {"no_intrinsics", each<CObservationImage>([](auto& o) { o.cameraParams = {}; })},
     {"nan_intrinsics", each<CObservationImage>([](auto& o) { o.cameraParams.fx(nan); })},
     {"nan_mount", each<CObservationImage>([](auto& o) { o.setSensorPose(mrpt::poses::CPose3D(nan, 0, 0)); })},
     {"missing_image", each<CObservationImage>([](auto& o) { o.image.setExternalStorage("missing.jpg"); })},
+    {"small_images", each<CObservationImage>([](auto& o) { o.image = blank(320, 200, 0); })},
+    {"white_images", each<CObservationImage>([](auto& o) { o.image = blank(640, 480, 255); })},
+    {"same_times", each<CObservationImage>([](auto& o) { o.timestamp = mrpt::Clock::fromDouble(1000.5); })},
     {"nan_odometry", each<CObservationOdometry>([](auto& o) { o.odometry.x(nan); })},
 };
 

@@ -9,8 +9,10 @@
 
 #include "scratch_directory.h"
 #include "vmcl/datasets/rawlog_reader.h"
+#include "vmcl/datasets/rawlog_writer.h"
 #include "vmcl/geometry/trajectory.h"
 #include "vmcl/mrpt/camera_observation.h"
+#include "vmcl/mrpt/measured_depth.h"
 
 namespace vmcl {
 namespace {
@@ -120,6 +122,38 @@ TEST_F(TumImportTest, leavesOutBadImagesAndNamesThem) {
   for (const std::string& problem : report.problems) EXPECT_NE(problem.find("rgb.txt:"), std::string::npos) << problem;
   EXPECT_NE(report.problems[0].find("rgb.txt:7: expected"), std::string::npos) << report.problems[0];
   EXPECT_NE(report.problems[1].find("rgb.txt:8: expected"), std::string::npos) << report.problems[1];
+}
+
+TEST_F(TumImportTest, joinsDepthToTheImageOfItsTime) {
+  std::filesystem::create_directories(data() / "depth");
+  cv::imwrite((data() / "depth/good.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(7500)));
+  cv::imwrite((data() / "depth/grey.png").string(), cv::Mat(24, 32, CV_8U, cv::Scalar(75)));
+  cv::imwrite((data() / "depth/small.png").string(), cv::Mat(12, 32, CV_16U, cv::Scalar(7500)));
+  write("depth.txt",
+        "# depth maps\n100.03 depth/good.png\n101.015 depth/good.png\n102 depth/grey.png\n"
+        "103 depth/small.png\n104 depth/missing.png\n");
+  const auto report = importTum(data(), log());
+  EXPECT_EQ(report.images, 5);
+  EXPECT_EQ(report.depth_images, 1);
+  ASSERT_EQ(report.problems.size(), 3u);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NE(report.problems[static_cast<std::size_t>(i)].find("depth.txt:" + std::to_string(4 + i)),
+              std::string::npos);
+  RawlogReader reader(log());
+  RawlogEntry entry;
+  std::vector<CameraObservation> cameras;
+  std::vector<DepthImage> depths;
+  while (reader.next(entry))
+    if (const auto camera = cameraObservation(*entry.observation)) {
+      cameras.push_back(*camera);
+      depths.push_back(measuredDepth(*entry.observation, rawlogCompanion(log(), "_Images")));
+    }
+  ASSERT_EQ(cameras.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(depths[i].empty(), i != 1);
+  EXPECT_FLOAT_EQ(depthAt(depths[1], {16, 12}), 1.5f);
+  EXPECT_EQ(cameras[1].image.pixels.front(), 10);
+  const Eigen::Vector3d ahead = cameras[1].robot_from_camera * Eigen::Vector3d(0, 0, 1);
+  EXPECT_TRUE(ahead.isApprox(Eigen::Vector3d(0.1, 1, 0.3), 1e-6)) << ahead.transpose();
 }
 
 TEST_F(TumImportTest, namesMissingAndBrokenFiles) {

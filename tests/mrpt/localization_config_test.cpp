@@ -145,6 +145,10 @@ TEST_F(Ini, UnknownKeyOfAVisualMapIsRefused) {
 
 TEST_F(Ini, BadValueOfAVisualMapIsRefused) {
   sections_["MetricMap"]["visualKeyframes_count"] = "1";
+  std::string& setting = sections_["MetricMap_visualKeyframes_00_likelihoodOpts"]["setting"];
+  setting = "dense";
+  EXPECT_NE(refusal().find("setting is \"dense\", not scsd, dcsd or dcdd"), std::string::npos) << refusal();
+  setting = "dcsd";
   sections_["MetricMap_visualKeyframes_00_likelihoodOpts"]["particle_sigma_px"] = "-2";
   EXPECT_NE(refusal().find("particle_sigma_px"), std::string::npos) << refusal();
 }

@@ -23,6 +23,7 @@ RelocalizationResult frame(int first_keyframe) {
     Match match;
     match.reference_camera = i;
     match.query_pixel = {first_keyframe, i};
+    match.point = MapPoint{{0, 3, 1}, 0.0004 * Eigen::Matrix3d::Identity()};
     result.problem.matches.push_back(match);
   }
   return result;
@@ -63,6 +64,35 @@ TEST(TemporalRigTest, JoinsFramesApartAlone) {
   EXPECT_THAT(cameras({.frames = 1}, {1, 0, 0}, 3), ElementsAre(1, 1, 1));
 }
 
+TEST(TemporalRigTest, EarlierPointsAreAsUncertainAsOdometry) {
+  const RelocalizationResult seen = frame(0);
+  TemporalRig rig({.shift_noise = 0.1, .drift_noise = 0.2, .turn_noise = 0.3});
+  rig.add(seen, {0, 0, 0});
+  rig.add(seen, {0.5, 0, 0});
+  const auto joined = rig.add(seen, {0.5, 0, -0.4});  // 0.5 m and 0.4 rad after the first frame
+  ASSERT_EQ(joined.problem.query_cameras.size(), 3u);
+  const auto variance = [](double position, double heading) -> Eigen::Vector3d {
+    return Eigen::Vector3d(0.0004, 0.0004, 0.0004) +
+           (position * position + 9 * heading * heading) * Eigen::Vector3d(1, 1, 0);
+  };
+  const Eigen::Vector3d expected[] = {variance(0, 0), variance(0, 0.12), variance(0.05, std::hypot(0.1, 0.12))};
+  for (const Match& match : joined.problem.matches) {
+    if (match.reference_camera != 0) continue;  // the other stands elsewhere
+    const Eigen::Matrix3d covariance = expected[match.query_camera].asDiagonal();
+    EXPECT_TRUE(match.point->covariance.isApprox(covariance, 1e-9)) << match.point->covariance;
+  }
+}
+
+TEST(TemporalRigTest, MatchesWithoutDepthAreOfTheNewestFrameAlone) {
+  RelocalizationResult seen = frame(0);
+  seen.problem.matches[0].point.reset();
+  TemporalRig rig({});
+  rig.add(seen, {0, 0, 0});
+  const auto joined = rig.add(seen, {0.5, 0, 0});
+  ASSERT_EQ(joined.problem.matches.size(), 3u);
+  for (const Match& match : joined.problem.matches) EXPECT_TRUE(match.point || match.query_camera == 0);
+}
+
 TEST(TemporalRigTest, RefusesBadInput) {
   const auto refused = [](const TemporalRigOptions& options, const char* key) {
     EXPECT_THAT([&] { TemporalRig{options}; }, ThrowsMessage<std::invalid_argument>(HasSubstr(key)));
@@ -70,6 +100,9 @@ TEST(TemporalRigTest, RefusesBadInput) {
   refused({.frames = 0}, "frames");
   refused({.min_distance = -1}, "min_distance");
   refused({.min_rotation = std::nan("")}, "min_rotation");
+  refused({.shift_noise = -1}, "shift_noise");
+  refused({.drift_noise = -1}, "drift_noise");
+  refused({.turn_noise = std::nan("")}, "turn_noise");
   EXPECT_THROW(TemporalRig({}).add(frame(0), {std::nan(""), 0, 0}), std::invalid_argument);
 }
 

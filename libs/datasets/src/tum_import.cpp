@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "depth_observation.h"
 #include "tum_calibration.h"
 #include "vmcl/datasets/rawlog_writer.h"
 #include "vmcl/geometry/trajectory.h"
@@ -18,7 +21,9 @@
 namespace vmcl {
 namespace {
 
-constexpr double margin = 1.0;     // s of poses kept before the first and after the last image
+constexpr double margin = 1.0;      // s of poses kept before the first and after the last image
+constexpr double same_time = 0.02;  // s between a colour image and its depth, as the benchmark's associate.py has it
+constexpr double depth_units_per_mm = 5;
 constexpr double max_time = 1e10;  // s, the year 2286; a rawlog's clock overflows later
 
 struct ListedImage {
@@ -40,10 +45,9 @@ ListedImage parseImageLine(const std::string& line, const std::filesystem::path&
   return image;
 }
 
-/// The images of rgb.txt between first and last frame, sorted by time; bad lines go to the report.
-std::vector<ListedImage> readImageList(const std::filesystem::path& directory, const TumImportOptions& options,
+/// The images of a list between first and last frame, sorted by time; bad lines go to the report.
+std::vector<ListedImage> readImageList(const std::filesystem::path& list, const TumImportOptions& options,
                                        TumImportReport& report) {
-  const auto list = directory / "rgb.txt";
   std::ifstream in(list);
   if (!in) throw std::runtime_error(list.string() + ": cannot be opened");
   std::vector<ListedImage> images;
@@ -55,13 +59,44 @@ std::vector<ListedImage> readImageList(const std::filesystem::path& directory, c
     ++frame;
     if (!wanted) continue;
     try {
-      images.push_back(parseImageLine(line, directory, list.string() + ":" + std::to_string(number)));
+      images.push_back(parseImageLine(line, list.parent_path(), list.string() + ":" + std::to_string(number)));
     } catch (const std::runtime_error& error) {
       report.problems.push_back(error.what());
     }
   }
   std::stable_sort(images.begin(), images.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   return images;
+}
+
+/// The depth images of an optional list.
+std::vector<ListedImage> readDepthList(const std::filesystem::path& list, TumImportReport& report) {
+  if (!std::filesystem::exists(list)) return {};
+  return readImageList(list, {}, report);
+}
+
+/// That of the time nearest to the colour image's, if it was taken together with it.
+const ListedImage* depthOf(const ListedImage& colour, const std::vector<ListedImage>& depths) {
+  const auto distance = [&](const ListedImage& depth) { return std::abs(depth.time - colour.time); };
+  const auto nearest = std::ranges::min_element(depths, {}, distance);
+  return nearest != depths.end() && distance(*nearest) <= same_time ? &*nearest : nullptr;
+}
+
+/// Millimetres; what is wrong with the image goes to the report.
+std::optional<cv::Mat> readDepth(const ListedImage* listed, const mrpt::img::TCamera& camera, TumImportReport& report) {
+  if (listed == nullptr) return std::nullopt;
+  const cv::Mat depth = cv::imread(listed->file.string(), cv::IMREAD_UNCHANGED);
+  const char* wrong = nullptr;
+  if (depth.type() != CV_16UC1 || depth.empty())
+    wrong = "not an image of 16 bit depth";
+  else if (depth.cols != static_cast<int>(camera.ncols) || depth.rows != static_cast<int>(camera.nrows))
+    wrong = "its size differs from calibration.yaml";
+  if (wrong != nullptr) {
+    report.problems.push_back(listed->place + ": " + listed->file.string() + ": " + wrong);
+    return std::nullopt;
+  }
+  cv::Mat millimetres;
+  depth.convertTo(millimetres, CV_16U, 1 / depth_units_per_mm);
+  return millimetres;
 }
 
 /// The poses of an optional file that fall into the time of the images.
@@ -97,13 +132,17 @@ std::string readEncodedImage(const ListedImage& listed, const mrpt::img::TCamera
 }
 
 void writeImage(RawlogWriter& writer, const ListedImage& listed, const std::string& encoded,
-                const TumCalibration& calibration) {
+                const TumCalibration& calibration, const std::optional<cv::Mat>& depth_mm) {
   mrpt::obs::CObservationImage observation;
   observation.sensorLabel = "camera";
   observation.timestamp = mrpt::Clock::fromDouble(listed.time);
   observation.cameraParams = calibration.camera;
   observation.cameraPose = calibration.robot_from_camera;
-  writer.write(observation, encoded, listed.file.extension().string());
+  const std::string extension = listed.file.extension().string();
+  if (depth_mm)
+    writer.write(depthObservation(observation, *depth_mm), encoded, extension);
+  else
+    writer.write(observation, encoded, extension);
 }
 
 }  // namespace
@@ -121,9 +160,10 @@ TumImportReport importTum(const std::filesystem::path& directory, const std::fil
   TumImportReport report;
   const TumCalibration calibration = readTumCalibration(directory / "calibration.yaml");
   report.mask_rows_from_top = calibration.mask_rows_from_top;
-  const auto images = readImageList(directory, options, report);
+  const auto images = readImageList(directory / "rgb.txt", options, report);
   const auto no_image = (directory / "rgb.txt").string() + ": no image to import";
   if (images.empty()) throw std::runtime_error(report.problems.empty() ? no_image : report.problems.front());
+  const auto depths = readDepthList(directory / "depth.txt", report);
   const auto odometry = readPoses(directory / "odometry.txt", images);
   const auto ground_truth = readPoses(directory / "groundtruth.txt", images);
 
@@ -138,7 +178,9 @@ TumImportReport importTum(const std::filesystem::path& directory, const std::fil
       report.problems.push_back(error.what());
       continue;
     }
-    writeImage(writer, images[i], encoded, calibration);
+    const auto depth_mm = readDepth(depthOf(images[i], depths), calibration.camera, report);
+    report.depth_images += depth_mm.has_value();
+    writeImage(writer, images[i], encoded, calibration, depth_mm);
     ++report.images;
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(images.size()));
   }

@@ -74,7 +74,14 @@ void VisualMapOptions::read(const mrpt::config::CConfigFileBase& ini, const std:
   creation.refuseUnknownKeys();
   IniSection likelihood(ini, prefix + "_likelihoodOpts");
   visitLikelihoodOptions(*this, [&](const char* key, auto& value) { likelihood.read(key, value); });
+  std::string setting(nameOf(relocalizer.setting));
+  likelihood.read("setting", setting);
   likelihood.refuseUnknownKeys();
+  try {
+    relocalizer.setting = matchSettingFromName(setting);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("[" + prefix + "_likelihoodOpts] " + error.what());
+  }
   IniSection insertion(ini, prefix + "_insertOpts");
   visitInsertionOptions(*this, [&](const char* key, auto& value) { insertion.read(key, value); });
   insertion.refuseUnknownKeys();
@@ -92,6 +99,7 @@ void VisualMapOptions::write(mrpt::config::CConfigFileBase& ini, const std::stri
   ini.write(prefix + "_creationOpts", "match_directory", match_directory);
   visitLikelihoodOptions(
       *this, [&](const char* key, const auto& value) { ini.write(prefix + "_likelihoodOpts", key, textOf(value)); });
+  ini.write(prefix + "_likelihoodOpts", "setting", std::string(nameOf(relocalizer.setting)));
   visitInsertionOptions(
       *this, [&](const char* key, const auto& value) { ini.write(prefix + "_insertOpts", key, textOf(value)); });
 }

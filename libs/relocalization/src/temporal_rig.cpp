@@ -9,8 +9,22 @@
 namespace vmcl {
 namespace {
 
-/// Appends the cameras and matches of an earlier frame, its cameras mounted where they were as seen from the robot now.
-void append(RelocalizationResult& result, const RelocalizationResult& frame, const Rigid3& robot_from_earlier) {
+/// How far odometry may be off between two frames: standard deviations (m, rad).
+struct OdometryError {
+  double position = 0, heading = 0;
+};
+
+/// As far as the error moves what is seen from the camera. Nearly as far as it is from the query's, too.
+void widen(MapPoint& point, const OdometryError& error, const ReferenceCamera& camera) {
+  const double distance = (point.point_in_map - camera.map_from_camera.translation()).head<2>().norm();
+  const double sigma = std::hypot(error.position, error.heading * distance);
+  point.covariance.diagonal().head<2>().array() += sigma * sigma;
+}
+
+/// Appends the cameras and matches with depth of an earlier frame, its cameras mounted where they were as seen from the
+/// robot now.
+void append(RelocalizationResult& result, const RelocalizationResult& frame, const Rigid3& robot_from_earlier,
+            const OdometryError& error) {
   PoseProblem& problem = result.problem;
   const int first_query_camera = static_cast<int>(problem.query_cameras.size());
   for (QueryCamera camera : frame.problem.query_cameras) {
@@ -26,8 +40,10 @@ void append(RelocalizationResult& result, const RelocalizationResult& frame, con
     problem.reference_cameras.push_back(frame.problem.reference_cameras[i]);
   }
   for (Match match : frame.problem.matches) {
+    if (!match.point) continue;
     match.query_camera += first_query_camera;
     match.reference_camera = reference_cameras[static_cast<std::size_t>(match.reference_camera)];
+    widen(*match.point, error, problem.reference_cameras[static_cast<std::size_t>(match.reference_camera)]);
     problem.matches.push_back(match);
   }
 }
@@ -41,6 +57,9 @@ void TemporalRigOptions::check() const {
   require(frames >= 1, "frames", frames);
   require(min_distance >= 0 && std::isfinite(min_distance), "min_distance", min_distance);
   require(min_rotation >= 0 && std::isfinite(min_rotation), "min_rotation", min_rotation);
+  require(shift_noise >= 0 && std::isfinite(shift_noise), "shift_noise", shift_noise);
+  require(drift_noise >= 0 && std::isfinite(drift_noise), "drift_noise", drift_noise);
+  require(turn_noise >= 0 && std::isfinite(turn_noise), "turn_noise", turn_noise);
 }
 
 TemporalRig::TemporalRig(const TemporalRigOptions& options) : options_(options) { options.check(); }
@@ -54,10 +73,17 @@ RelocalizationResult TemporalRig::add(const RelocalizationResult& frame, const P
   if (!isFinite(odometry_from_robot)) throw std::invalid_argument("odometry is not finite");
   RelocalizationResult joined = frame;
   int frames = 1;
+  double way = 0, turn = 0;
+  PlanarPose later = odometry_from_robot;
   for (const Frame& earlier : earlier_) {
     if (frames == options_.frames) break;
+    const PlanarPose moved = inverse(later) * earlier.odometry_from_robot;
+    way += std::hypot(moved.x, moved.y);
+    turn += std::abs(moved.phi);
+    later = earlier.odometry_from_robot;
     if (&earlier == &earlier_.front() && !isApart(earlier.odometry_from_robot, odometry_from_robot)) continue;
-    append(joined, earlier.result, toRigid3(inverse(odometry_from_robot) * earlier.odometry_from_robot));
+    append(joined, earlier.result, toRigid3(inverse(odometry_from_robot) * earlier.odometry_from_robot),
+           {options_.shift_noise * way, std::hypot(options_.drift_noise * way, options_.turn_noise * turn)});
     ++frames;
   }
   if (earlier_.empty() || isApart(earlier_.front().odometry_from_robot, odometry_from_robot)) {

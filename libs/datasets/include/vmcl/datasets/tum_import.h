@@ -19,6 +19,7 @@ struct TumImportOptions {
 
 struct TumImportReport {
   int images = 0;
+  int depth_images = 0;  ///< joined to one of them
   int odometry_readings = 0;
   int ground_truth_poses = 0;
   int mask_rows_from_top = 0;         ///< of calibration.yaml; a rawlog has no place for it
@@ -26,7 +27,9 @@ struct TumImportReport {
 };
 
 /// Makes a rawlog, sorted by time, of a directory in the layout of the TUM RGB-D benchmark (Sturm et al. 2012):
-/// rgb.txt and calibration.yaml, odometry.txt and groundtruth.txt where there are. The ground truth goes to
+/// rgb.txt and calibration.yaml; depth.txt (16 bit PNG files of 5000 units a metre, aligned with the colour images; an
+/// image within 0.02 s of a colour image joins it), odometry.txt and groundtruth.txt where there are. The ground truth
+/// goes to
 /// `<log>.groundtruth.tum` beside the log. Poses up to a second before and after the images are kept. Throws
 /// std::runtime_error naming file and line: rgb.txt or calibration.yaml missing or wrong, a bad pose, no image left.
 TumImportReport importTum(const std::filesystem::path& directory, const std::filesystem::path& log,

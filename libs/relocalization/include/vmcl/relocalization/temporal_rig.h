@@ -12,13 +12,18 @@ struct TemporalRigOptions {
   int frames = 5;                     ///< looked at together, the newest included (the paper's 5)
   double min_distance = 0.25;         ///< between two of them (m),
   double min_rotation = 20 * degree;  ///< or turn (rad)
+  double shift_noise = 0.03;          ///< standard deviation of odometry's positions (m) per metre driven,
+  double drift_noise = 0.01;          ///< of its headings (rad) per metre driven
+  double turn_noise = 0.02;           ///< and per radian turned
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;
 };
 
 /// Ties the matches of frames that a robot took one after the other together by its odometry, as if cameras of one rig
-/// had taken them at once.
+/// had taken them at once. What odometry may have lost since then widens the points that earlier frames saw, alike in
+/// all directions of the plane, for the heading is not known yet. Their matches without depth, whose epipolar lines
+/// nothing widens, are left out: as exact ones they would outweigh the newest frame.
 class TemporalRig {
  public:
   explicit TemporalRig(const TemporalRigOptions& options);
