@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
@@ -219,6 +220,16 @@ TEST_F(VisualKeyframeMapTest, ShowsLandmarksAndKeyframes) {
   const auto scene = map.getVisualization();
   EXPECT_TRUE(scene->getByName("landmarks"));
   EXPECT_TRUE(scene->getByName("keyframes"));
+  EXPECT_FALSE(scene->getByName("matches"));
+}
+
+TEST_F(VisualKeyframeMapTest, ShowsWhatTheLatestImageIsMatchedWith) {
+  const VisualKeyframeMap map({}, content_);
+  logLikelihood(map, imageFrom(truth_), truth_);
+  const auto matches =
+      std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(map.getVisualization()->getByName("matches"));
+  ASSERT_TRUE(matches);
+  EXPECT_GT(matches->size(), 10U);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/opengl/CGridPlaneXY.h>
+#include <mrpt/opengl/CEllipsoid2D.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "vmcl/evaluation/localization_picture.h"
@@ -50,6 +52,29 @@ CSetOfLines::Ptr truthLines(const Trajectory& ground_truth) {
   return path.lines();
 }
 
+/// Where the robot may be: an ellipse of three deviations and the heading, the likelier the more opaque.
+mrpt::opengl::CSetOfObjects::Ptr hypotheses(const std::vector<PoseCluster>& clusters) {
+  constexpr double height = 0.04, arrow = 0.4;  // m
+  auto all = mrpt::opengl::CSetOfObjects::Create();
+  all->setName("hypotheses");
+  for (const PoseCluster& cluster : clusters) {
+    const PlanarPose& pose = cluster.robot_in_map;
+    const TColorf color(0.8F, 0.1F, 0.8F, static_cast<float>(0.3 + 0.7 * cluster.share));
+    auto ellipse = mrpt::opengl::CEllipsoid2D::Create();
+    ellipse->setCovMatrix(mrpt::math::CMatrixDouble22(cluster.covariance.topLeftCorner<2, 2>()));
+    ellipse->setLocation(pose.x, pose.y, height);
+    ellipse->setColor(color);
+    all->insert(ellipse);
+    auto heading = CSetOfLines::Create();
+    heading->setColor(color);
+    heading->setLineWidth(2);
+    heading->appendLine(pose.x, pose.y, height, pose.x + arrow * std::cos(pose.phi),
+                        pose.y + arrow * std::sin(pose.phi), height);
+    all->insert(heading);
+  }
+  return all;
+}
+
 }  // namespace
 
 void writeScene(const std::filesystem::path& file, const LocalizationRun& run, const Localizer& localizer) {
@@ -62,6 +87,7 @@ void writeScene(const std::filesystem::path& file, const LocalizationRun& run, c
   for (const auto& particle : localizer.particles().m_particles)
     particles->insertPoint(static_cast<float>(particle.d.x), static_cast<float>(particle.d.y), 0.02F);
   scene.insert(particles);
+  scene.insert(hypotheses(localizer.clusters()));
   if (run.ground_truth) scene.insert(truthLines(*run.ground_truth));
   scene.insert(pathLines(run));
   AtomicFile out(file);

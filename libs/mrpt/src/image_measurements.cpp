@@ -65,6 +65,11 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::C
   return measurement;
 }
 
+std::shared_ptr<const ImageMeasurement> ImageMeasurements::latest() {
+  const std::scoped_lock lock(mutex_);
+  return recent_.empty() ? nullptr : recent_.front().measurement;
+}
+
 void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const {
   const MatchStore store(options_.match_directory);
   if (auto known = store.find(observation)) {

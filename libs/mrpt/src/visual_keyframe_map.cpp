@@ -217,6 +217,11 @@ PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observ
   return estimatePose(measurement->problem, *content(), options);
 }
 
+std::shared_ptr<const ImageMeasurement> VisualKeyframeMap::latestMeasurement() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->measurements ? state_->measurements->latest() : nullptr;
+}
+
 void VisualKeyframeMap::extend(PoseBox& box) const {
   constexpr double margin = 2;  // m about the keyframes
   const auto map = contentOrReport();

@@ -3,6 +3,7 @@
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
+#include "vmcl/mrpt/image_measurements.h"
 #include "vmcl/mrpt/visual_keyframe_map.h"
 
 namespace vmcl {
@@ -21,6 +22,19 @@ CPointCloud::Ptr landmarkCloud(const KeyframeMap& map) {
   cloud->setPointSize(2);
   for (const Landmark& landmark : map.landmarks) {
     const Eigen::Vector3f point = landmark.point_in_map.cast<float>();
+    cloud->insertPoint(point.x(), point.y(), point.z());
+  }
+  return cloud;
+}
+
+CPointCloud::Ptr matchedPoints(const PoseProblem& problem) {
+  auto cloud = CPointCloud::Create();
+  cloud->setName("matches");
+  cloud->setColor(mrpt::img::TColorf(0.1F, 0.7F, 0.2F));
+  cloud->setPointSize(5);
+  for (const Match& match : problem.matches) {
+    if (!match.point) continue;
+    const Eigen::Vector3f point = match.point->point_in_map.cast<float>();
     cloud->insertPoint(point.x(), point.y(), point.z());
   }
   return cloud;
@@ -55,6 +69,7 @@ void VisualKeyframeMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& object
   if (!map) return;
   objects.insert(landmarkCloud(*map));
   objects.insert(keyframeFrusta(*map));
+  if (const auto measurement = latestMeasurement()) objects.insert(matchedPoints(measurement->problem));
 }
 
 }  // namespace vmcl

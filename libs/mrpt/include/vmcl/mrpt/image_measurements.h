@@ -40,6 +40,9 @@ class ImageMeasurements {
   /// Broken images give a measurement with an error.
   std::shared_ptr<const ImageMeasurement> of(const mrpt::obs::CObservation& observation);
 
+  /// Of the image that came last; null before the first.
+  std::shared_ptr<const ImageMeasurement> latest();
+
   const Relocalizer& relocalizer() const { return relocalizer_; }
 
  private:

@@ -12,6 +12,8 @@
 
 namespace vmcl {
 
+struct ImageMeasurement;
+
 /// A keyframe map as an MRPT metric map, in an ini `visualKeyframes_count = 1`. It weighs particles by images
 /// (CObservationImage, or the intensity image of CObservation3DRangeScan) wherever MRPT uses metric maps: preload
 /// libvmcl-mrpt.so, or load it as a plugin. All other observations have log likelihood 0.
@@ -52,7 +54,8 @@ class VisualKeyframeMap : public mrpt::maps::CMetricMap, public RelocalizingMap 
   /// `prefix`.vmap. Throws std::runtime_error naming the file.
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
 
-  /// Landmarks as points, keyframes as the axes of their cameras.
+  /// Landmarks as points, those that the latest image is matched with as larger ones, keyframes as their cameras'
+  /// views.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const override;
 
   MAP_DEFINITION_START(VisualKeyframeMap)
@@ -64,6 +67,9 @@ class VisualKeyframeMap : public mrpt::maps::CMetricMap, public RelocalizingMap 
 
   /// For callbacks of MRPT, where an exception would end the program: null, and a line on stderr, instead.
   std::shared_ptr<const KeyframeMap> contentOrReport() const;
+
+  /// What the latest image said; null before the first.
+  std::shared_ptr<const ImageMeasurement> latestMeasurement() const;
 
   void internal_clear() override;
   bool internal_insertObservation(const mrpt::obs::CObservation& observation,
