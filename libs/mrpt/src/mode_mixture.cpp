@@ -9,6 +9,17 @@
 #include "vmcl/mrpt/pose_density.h"
 
 namespace vmcl {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/// So many turns either way reach every heading within seven deviations of the mean.
+int wrapsOf(double heading_deviation) {
+  constexpr double most = 100;  // a heading so spread is as good as any
+  return static_cast<int>(std::min(most, std::floor(7 * heading_deviation / turn + 0.5)));
+}
+
+}  // namespace
 
 ModeMixture::ModeMixture(std::span<const PoseMode> modes) {
   if (modes.empty()) throw std::invalid_argument("a mixture needs at least one mode");
@@ -21,9 +32,9 @@ ModeMixture::ModeMixture(std::span<const PoseMode> modes) {
     const Eigen::LLT<Eigen::Matrix3d> cholesky(mode.covariance + Eigen::Matrix3d(kernel.asDiagonal()));
     if (cholesky.info() != Eigen::Success || !mode.covariance.allFinite() || !isFinite(mode.robot_in_map))
       throw std::invalid_argument("a mode's covariance is not positive semidefinite");
-    Component component{mode.robot_in_map, cholesky.matrixL(), std::exp(mode.log_weight - top) / sum, 0};
-    component.peak_density =
-        component.weight / (std::pow(2 * std::numbers::pi, 1.5) * component.root.diagonal().prod());
+    Component component{mode.robot_in_map, cholesky.matrixL(), std::exp(mode.log_weight - top) / sum, 0, 0};
+    component.peak_density = component.weight / (std::pow(turn, 1.5) * component.root.diagonal().prod());
+    component.wraps = wrapsOf(component.root.row(2).norm());
     components_.push_back(component);
   }
 }
@@ -42,10 +53,12 @@ PlanarPose ModeMixture::draw(Random& random) const {
 double ModeMixture::density(const PlanarPose& pose) const {
   double sum = 0;
   for (const Component& component : components_) {
-    const Eigen::Vector3d offset(pose.x - component.mean.x, pose.y - component.mean.y,
-                                 wrapAngle(pose.phi - component.mean.phi));
-    sum += component.peak_density *
-           std::exp(-component.root.triangularView<Eigen::Lower>().solve(offset).squaredNorm() / 2);
+    const double angle = wrapAngle(pose.phi - component.mean.phi);
+    for (int wrap = -component.wraps; wrap <= component.wraps; ++wrap) {
+      const Eigen::Vector3d offset(pose.x - component.mean.x, pose.y - component.mean.y, angle + wrap * turn);
+      sum += component.peak_density *
+             std::exp(-component.root.triangularView<Eigen::Lower>().solve(offset).squaredNorm() / 2);
+    }
   }
   return sum;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "vmcl/mrpt/kld_sample_size.h"
@@ -13,6 +14,7 @@ void PlanarMonteCarlo::normalize() {
   normalizeWeights();
   double sum = 0;
   for (const auto& particle : m_particles) sum += std::exp(particle.log_w);
+  if (!(sum > 0 && std::isfinite(sum))) throw std::runtime_error("the particles' weights are not finite");
   const double log_sum = std::log(sum);
   for (auto& particle : m_particles) particle.log_w -= log_sum;
 }

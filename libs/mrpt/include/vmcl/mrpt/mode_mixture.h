@@ -10,7 +10,7 @@
 namespace vmcl {
 
 /// The modes of an estimate as a density to draw particles from: Gaussians widened by the kernel of PoseDensity, so
-/// that both densities are known at the same resolution.
+/// that both densities are known at the same resolution, with headings wrapped around the circle.
 class ModeMixture {
  public:
   /// Throws std::invalid_argument for no modes or a covariance that is not positive semidefinite.
@@ -27,6 +27,7 @@ class ModeMixture {
     Eigen::Matrix3d root;     ///< lower Cholesky factor of the covariance
     double weight = 0;        ///< share of the mixture
     double peak_density = 0;  ///< weight times the Gaussian at its mean
+    int wraps = 0;            ///< turns, either way, that a drawn heading may have gone too far
   };
   std::vector<Component> components_;
 };
