@@ -80,7 +80,7 @@ void addImportVerb(CLI::App& app, int& exit_code) {
   CLI::App* tum =
       addFormat(*verb, "tum",
                 "Make a rawlog of a directory in the layout of the TUM RGB-D benchmark: rgb.txt and calibration.yaml,\n"
-                "odometry.txt and groundtruth.txt where there are. Depth images (depth.txt) are not imported.",
+                "depth.txt, odometry.txt and groundtruth.txt where there are.",
                 exit_code, arguments, CLI::ExistingDirectory, "DIR", runTum);
   tum->add_option("--first-frame", arguments->tum.first_frame, "first image, counting the lines of rgb.txt from 0");
   tum->add_option("--last-frame", arguments->tum.last_frame, "last image");

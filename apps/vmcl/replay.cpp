@@ -61,8 +61,8 @@ ProblemReport replay(const Replay& replay, Localizer& localizer, LocalizationRun
   try {
     while (reader.next(entry)) {
       bar.update("localizing", reader.progress());
-      if (!disturbed.disturb(entry.action.get(), entry.frame.get(), entry.observation.get())) continue;
-      if (gaps.contain(entry, localizer)) continue;
+      const bool left_out = gaps.contain(entry, localizer);  // first, as a disturbed frame may have lost its time
+      if (!disturbed.disturb(entry.action.get(), entry.frame.get(), entry.observation.get()) || left_out) continue;
       if (const auto frame = localizer.step(entry.action, entry.frame, entry.observation)) run.frames.push_back(*frame);
       for (const std::string& problem : localizer.takeProblems()) problems.add(replay.rawlog.string() + ": " + problem);
     }

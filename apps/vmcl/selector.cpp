@@ -106,15 +106,16 @@ void writeExamples(const std::filesystem::path& directory, const KeyframeMap& ma
 int runData(const DataArguments& arguments) {
   if ((arguments.width > 0) != (arguments.height > 0))
     throw std::runtime_error("selector data: --width and --height go together");
+  std::filesystem::create_directories(arguments.out);
+  AtomicFile(std::filesystem::path(arguments.out) / "trials.csv");  // fails now rather than after the work
   const Relocalizer relocalizer(std::make_shared<const KeyframeMap>(loadMap(arguments.map)), arguments.options);
   CameraStream stream(arguments.rawlog);
   const std::vector<SolutionTrial> trials = allTrials(stream, relocalizer, arguments);
   const std::vector<Solver> labels = labelsOf(trials, relocalizer.map().keyframes.size());
-  std::filesystem::create_directories(arguments.out);
   writeTrials(std::filesystem::path(arguments.out) / "trials.csv", trials);
   writeExamples(arguments.out, relocalizer.map(), labels, arguments);
   stream.problems().print("selector data");
-  std::cout << trials.size() << " images matched with a keyframe each; better by over 0.25 m: 1P1DP at "
+  std::cout << trials.size() << " pairs of image and keyframe matched; better by over 0.25 m: 1P1DP at "
             << std::ranges::count(labels, Solver::one_point_one_depth) << " keyframes, 2DP at "
             << std::ranges::count(labels, Solver::two_depth) << '\n';
   printCalibration(trials);
@@ -144,8 +145,9 @@ int runChoose(const ChooseArguments& arguments) {
   if (!arguments.output.empty()) AtomicFile(arguments.output);  // fails now rather than after the work
   const auto start = std::chrono::steady_clock::now();
   int exit_code = exit_done;
-  chooseByAnalysis(map, {});
-  if (!arguments.network.empty()) {
+  if (arguments.network.empty()) {
+    chooseByAnalysis(map, {});
+  } else {
     try {
       chooseByNetwork(map, SolutionNetwork(arguments.network), {});
     } catch (const std::runtime_error& error) {

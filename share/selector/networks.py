@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Networks that choose between 1P1DP and 2DP: in, a heat map of 1 x 3 x height x width, RGB in [0, 1]; out, two
 numbers, the larger for the better solution, 1P1DP's first."""
+import os
+
 import torch
 from torch import nn
 from torchvision.models import resnet101
@@ -37,5 +39,7 @@ ARCHITECTURES = {'compact': compact, 'resnet101': resnet}
 
 def export(network, width, height, file):
     """Writes the ONNX file that `vmcl selector choose --network` takes."""
-    torch.onnx.export(network.cpu().eval(), torch.zeros(1, 3, height, width), file, opset_version=11,
+    aside = f'{file}.part'
+    torch.onnx.export(network.cpu().eval(), torch.zeros(1, 3, height, width), aside, opset_version=11,
                       input_names=['heat_map'], output_names=['solutions'])
+    os.replace(aside, file)

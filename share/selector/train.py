@@ -11,6 +11,7 @@ Example:
 import argparse
 import os
 import sys
+import zlib
 from pathlib import Path
 
 import torch
@@ -23,7 +24,7 @@ from networks import ARCHITECTURES, Normalized, export
 def make_network(arguments, images):
     network = ARCHITECTURES[arguments.architecture]()
     if arguments.weights:
-        weights = torch.load(arguments.weights, map_location='cpu')
+        weights = torch.load(arguments.weights, map_location='cpu', weights_only=True)
         kept = {name: value for name, value in weights.items() if not name.startswith('fc.')}
         network.load_state_dict(kept, strict=False)
     scaled = images.float() / 255
@@ -53,16 +54,25 @@ def train_epoch(network, optimizer, images, better, device, generator):
     return sum(losses) / len(losses)
 
 
-def save_checkpoint(file, epoch, network, optimizer, scheduler, generator):
+def settings_of(arguments, images, better):
+    """All that decides on the network."""
+    settings = {name: getattr(arguments, name) for name in ('architecture', 'weights', 'epochs', 'rate', 'seed')}
+    return {**settings, 'examples': zlib.crc32(better.numpy().tobytes(), zlib.crc32(images.numpy().tobytes()))}
+
+
+def save_checkpoint(file, settings, epoch, network, optimizer, scheduler, generator):
     aside = f'{file}.part'
-    torch.save({'epoch': epoch, 'network': network.state_dict(), 'optimizer': optimizer.state_dict(),
-                'scheduler': scheduler.state_dict(), 'generator': generator.get_state()}, aside)
+    torch.save({'settings': settings, 'epoch': epoch, 'network': network.state_dict(),
+                'optimizer': optimizer.state_dict(), 'scheduler': scheduler.state_dict(),
+                'generator': generator.get_state()}, aside)
     os.replace(aside, file)
 
 
-def load_checkpoint(file, network, optimizer, scheduler, generator):
+def load_checkpoint(file, settings, network, optimizer, scheduler, generator):
     """Returns how many epochs are done."""
-    state = torch.load(file, map_location='cpu')
+    state = torch.load(file, map_location='cpu', weights_only=True)
+    if state.get('settings') != settings:
+        raise ValueError(f'{file} is of other examples or settings: remove it to begin anew')
     network.load_state_dict(state['network'])
     optimizer.load_state_dict(state['optimizer'])
     scheduler.load_state_dict(state['scheduler'])
@@ -86,15 +96,16 @@ def train(arguments):
     optimizer = torch.optim.SGD(network.parameters(), lr=arguments.rate, momentum=0.9, weight_decay=1e-4)
     scheduler = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, arguments.epochs)
     checkpoint = Path(arguments.output).with_suffix('.checkpoint')
+    settings = settings_of(arguments, images, better)
     done = 0
     if checkpoint.exists():
-        done = load_checkpoint(checkpoint, network, optimizer, scheduler, generator)
+        done = load_checkpoint(checkpoint, settings, network, optimizer, scheduler, generator)
     counts = torch.bincount(better, minlength=2).tolist()
     print(f'{counts[0]} examples of 1P1DP, {counts[1]} of 2DP; on {device}, {done} epochs done before')
     for epoch in range(done, arguments.epochs):
         loss = train_epoch(network, optimizer, images, better, device, generator)
         scheduler.step()
-        save_checkpoint(checkpoint, epoch + 1, network, optimizer, scheduler, generator)
+        save_checkpoint(checkpoint, settings, epoch + 1, network, optimizer, scheduler, generator)
         if sys.stdout.isatty() or (epoch + 1) % 10 == 0 or epoch + 1 == arguments.epochs:
             print(f'epoch {epoch + 1} of {arguments.epochs}: loss {loss:.4f}', flush=True)
     print(f'right on the training set: {100 * accuracy(network, images, better, device):.1f} %')

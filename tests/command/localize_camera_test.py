@@ -88,11 +88,19 @@ class LocalizeCameraTest(CommandTest):
                 self.assert_complaint(self.vmcl(*self.localize(log), *every_image), SOME_INPUT_BAD,
                                       'start.rawlog', bad.name)
 
+    def test_disturbed_drives(self):
+        self.succeed(*self.localize(out='dark'), '--dim', 0.5, 100, 0, '--drop-images', 0.2, '--odometry-scale', 1.05)
+        frames = self.path('dark/frames.csv').read_text().splitlines()[1:]
+        self.assertTrue(all(frame.split(',')[-1] == '0' for frame in frames[-3:]), frames[-3:])  # no image matches
+
     def test_choices_that_make_no_sense(self):
         for options, word in ((['--sensors', 'sonar'], '--sensors'), (['--sensors', 'laser'], 'no map for a laser'),
                               (['--sensors', 'both'], 'no map for a laser'), (['--start', 'here'], '--start'),
                               (['--start', 'given'], '--groundtruth'), (['--kidnap', '1'], '--kidnap'),
-                              (['--kidnap', '0', '1'], '--kidnap'), (['--set', 'min_share'], 'section.key=value'),
+                              (['--kidnap', '0', '1'], '--kidnap'),
+                              (['--drop-images', '1'], 'drop_images'),
+                              (['--odometry-scale', 'nan'], 'odometry_scale'),
+                              (['--dim', '1', '0', '0'], 'dim.for'), (['--dim', '1', '1', '2'], 'dim.light'), (['--set', 'min_share'], 'section.key=value'),
                               (['--set', 'vmcl.min_sahre=1'], 'min_sahre'), (['--set', 'PF.BETA=1'], 'PF'),
                               (['--kidnap', '1', '5'], 'ends before the kidnapped robot is seen again')):
             with self.subTest(options):

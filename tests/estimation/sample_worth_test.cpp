@@ -85,6 +85,17 @@ TEST(SampleWorthTest, NothingIsWorthWhatCannotBeDrawn) {
   EXPECT_EQ(worthOf(Solver::two_depth, behind).chance(), 0);
 }
 
+TEST(MatchInformationTest, AMatchWithoutDepthAndBaselineSaysNothing) {
+  Random random(3);
+  const Scene scene = randomScene(random, {.matches = 1, .depth_rate = 1, .point_sigma = 0});
+  const QueryCamera& query = scene.problem.query_cameras[0];
+  ReferenceCamera reference = scene.problem.reference_cameras[0];
+  const Eigen::Vector3d point = scene.problem.matches[0].point->point_in_map;
+  EXPECT_FALSE(informationWithoutDepth(query, reference, scene.map_from_robot, point, 1).isZero());
+  reference.map_from_camera = toRigid3(scene.map_from_robot) * query.robot_from_camera;
+  EXPECT_TRUE(informationWithoutDepth(query, reference, scene.map_from_robot, point, 1).isZero());
+}
+
 // 4000 draws: a sample covariance is within 10 % of the true one but for once in 10^5; 20 % leaves room for what small
 // errors are not linear. Seed 7.
 TEST(MatchInformationTest, IsTheInverseOfTheCovarianceOfSamples) {

@@ -56,6 +56,14 @@ TEST(HeatMapTest, IsBlackWithoutLandmarks) {
   map.keyframes[0].landmark_of_feature = {-1};
   EXPECT_EQ(std::ranges::count(heatMap(map, map.keyframes[0], 64, 48).pixels, uint8_t{0}), 3 * 64 * 48);
   EXPECT_THROW(heatMap(map, map.keyframes[0], 0, 48), std::invalid_argument);
+  EXPECT_THROW(heatMap(map, map.keyframes[0], 1 << 14, 48), std::invalid_argument);
+}
+
+TEST(HeatMapTest, ALandmarkBetweenTheFewPixelsOfATinyOneIsLeftOut) {
+  for (float x = 0; x < 640; x += 13) {
+    const KeyframeMap map = mapWithLandmark({x, 100}, 5, 0.25, 5);
+    EXPECT_EQ(heatMap(map, map.keyframes[0], 1, 1).pixels.size(), 3U);
+  }
 }
 
 }  // namespace

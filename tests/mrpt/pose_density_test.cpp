@@ -111,8 +111,8 @@ TEST(ModeMixture, DrawsWhatItsDensitySays) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(variance[i], expected[i], 6 * expected[i] * std::sqrt(2.0 / near_first));
 }
 
-/// A heading spread over turns, tied to the position: what is drawn has gone round the circle. Seed 1; only a draw beyond
-/// seven deviations, chance below 1e-6, could fail it.
+/// A heading spread over turns, tied to the position: what is drawn has gone round the circle. Seed 1; only a draw
+/// beyond seven deviations, chance below 1e-6, could fail it.
 TEST(ModeMixture, HeadingsGoRoundTheCircle) {
   PoseMode mode;
   mode.robot_in_map = {1, 2, 3};

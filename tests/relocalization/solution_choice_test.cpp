@@ -40,6 +40,16 @@ TEST_F(SolutionChoiceTest, DepthThatIsOftenWrongAsksForOne) {
   EXPECT_EQ(count(map, Solver::one_point_one_depth), std::ssize(map.keyframes));
 }
 
+TEST_F(SolutionChoiceTest, AMeasuredDepthIsAsGoodAsAnotherView) {
+  const auto chance = [](int observations) {
+    KeyframeMap map = *map_;
+    for (Landmark& landmark : map.landmarks) landmark.observation_count = observations;
+    return analyzeSolutions(map, map.keyframes[0], {}).two_depth.chance();
+  };
+  EXPECT_GT(chance(1), 0);
+  EXPECT_EQ(chance(1), chance(2));
+}
+
 TEST_F(SolutionChoiceTest, SaysNothingWithoutReliableLandmarks) {
   KeyframeMap map = *map_;
   for (Landmark& landmark : map.landmarks) landmark.covariance = Eigen::Matrix3d::Identity();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -194,11 +194,16 @@ class Folder {
 
   void addDepth(const Line& line) {
     guarded([&] {
-      const cv::Mat depth = cv::imread(fileOf(line).string(), cv::IMREAD_UNCHANGED);
-      if (depth.type() != CV_16UC1) throw std::runtime_error(line.place + ": not an image of 16 bit depth");
-      checkSize(line, depth.cols, depth.rows);
-      recording_->addDepth(line.time, depth, line.place);
+      Image16 depth = readDepth(line);
+      checkSize(line, depth.width, depth.height);
+      recording_->addDepth(line.time, cv::Mat(depth.height, depth.width, CV_16UC1, depth.pixels.data()), line.place);
     });
+  }
+
+  Image16 readDepth(const Line& line) const try {
+    return readImage16(fileOf(line));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(line.place + ": " + error.what());
   }
 
   void checkSize(const Line& line, int width, int height) const {

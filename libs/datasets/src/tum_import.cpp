@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -84,19 +84,18 @@ const ListedImage* depthOf(const ListedImage& colour, const std::vector<ListedIm
 /// Millimetres; what is wrong with the image goes to the report.
 std::optional<cv::Mat> readDepth(const ListedImage* listed, const mrpt::img::TCamera& camera, TumImportReport& report) {
   if (listed == nullptr) return std::nullopt;
-  const cv::Mat depth = cv::imread(listed->file.string(), cv::IMREAD_UNCHANGED);
-  const char* wrong = nullptr;
-  if (depth.type() != CV_16UC1 || depth.empty())
-    wrong = "not an image of 16 bit depth";
-  else if (depth.cols != static_cast<int>(camera.ncols) || depth.rows != static_cast<int>(camera.nrows))
-    wrong = "its size differs from calibration.yaml";
-  if (wrong != nullptr) {
-    report.problems.push_back(listed->place + ": " + listed->file.string() + ": " + wrong);
+  try {
+    Image16 depth = readImage16(listed->file);
+    if (depth.width != static_cast<int>(camera.ncols) || depth.height != static_cast<int>(camera.nrows))
+      throw std::runtime_error(listed->file.string() + ": its size differs from calibration.yaml");
+    cv::Mat millimetres;
+    cv::Mat(depth.height, depth.width, CV_16UC1, depth.pixels.data())
+        .convertTo(millimetres, CV_16U, 1 / depth_units_per_mm);
+    return millimetres;
+  } catch (const std::runtime_error& error) {
+    report.problems.push_back(listed->place + ": " + error.what());
     return std::nullopt;
   }
-  cv::Mat millimetres;
-  depth.convertTo(millimetres, CV_16U, 1 / depth_units_per_mm);
-  return millimetres;
 }
 
 /// The poses of an optional file that fall into the time of the images.

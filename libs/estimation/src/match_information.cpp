@@ -50,8 +50,9 @@ Eigen::Matrix3d informationWithoutDepth(const QueryCamera& query, const Referenc
   by_pose.topRows<2>() = query_by_point * pointByPose(map_from_robot, point_in_map);
   by_point << query_by_point, pixelByPoint(reference.camera, reference.map_from_camera, point_in_map);
   const Eigen::ColPivHouseholderQR<Matrix43> qr(by_point);
+  if (qr.rank() < 3) return Eigen::Matrix3d::Zero();  // no baseline: any depth fits
   const Eigen::Matrix4d Q = qr.householderQ();
-  const Eigen::MatrixXd free_of_point = Q.rightCols(4 - qr.rank()).transpose() * by_pose;
+  const Eigen::MatrixXd free_of_point = Q.rightCols<1>().transpose() * by_pose;
   return free_of_point.transpose() * free_of_point / (sigma_px * sigma_px);
 }
 

@@ -36,6 +36,7 @@ class Canvas {
     int left = 0, top = 0;
     const std::vector<float> columns = profile(center.x(), sigma.x(), width_, left);
     const std::vector<float> rows = profile(center.y(), sigma.y(), height_, top);
+    if (columns.empty()) return;
     for (std::size_t row = 0; row < rows.size(); ++row) {
       Eigen::Vector3f* const line = &values_[(static_cast<std::size_t>(top) + row) * static_cast<std::size_t>(width_) +
                                              static_cast<std::size_t>(left)];
@@ -59,10 +60,12 @@ class Canvas {
   std::vector<Eigen::Vector3f> values_;
 };
 
+constexpr int max_side = 4096;
+
 }  // namespace
 
 ColourImage heatMap(const KeyframeMap& map, const Keyframe& keyframe, int width, int height) {
-  if (width < 1 || height < 1 || width > 1 << 14 || height > 1 << 14)
+  if (width < 1 || height < 1 || width > max_side || height > max_side)
     throw std::invalid_argument("a heat map of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
   const ReferenceCamera camera = map.referenceCamera(keyframe);
   const Eigen::Array2d scale(double(width) / camera.camera.width, double(height) / camera.camera.height);

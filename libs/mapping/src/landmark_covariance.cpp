@@ -34,7 +34,7 @@ struct PointEquations {
 
   /// Whether the observations fix the point, given the poses. One that the adjustment drove far off or behind a camera
   /// is not, and its equations are noise.
-  bool fixThePoint() const {
+  bool isPointFixed() const {
     constexpr double least = 1e-10;  // of the information's smallest eigenvalue over the largest
     if (!information.allFinite()) return false;
     const Eigen::SelfAdjointEigenSolver<Block> eigen(information, Eigen::EigenvaluesOnly);
@@ -159,7 +159,7 @@ std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const
   std::vector<PointEquations> equations;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     equations.push_back(linearize(scene, noise.measurement, scene.points[i]));
-    if (equations.back().fixThePoint()) {
+    if (equations.back().isPointFixed()) {
       covariances.push_back(eliminate(equations.back(), pose_information));
     } else {
       covariances.push_back(Block::Constant(std::numeric_limits<double>::infinity()));

@@ -165,11 +165,12 @@ double poseDeviation(const Reconstruction& scene, const MapBuilderOptions& optio
 /// Moves the scene, and learns what errors the measurements have, by themselves and together.
 void adjustAndJudge(Reconstruction& scene, ReconstructionResult& result, const MapBuilderOptions& options) {
   AdjustmentNoise noise = result.noise;
-  noise.position /= result.shared_error;
-  noise.heading /= result.shared_error;
+  noise.position /= result.next_shared_error;
+  noise.heading /= result.next_shared_error;
   adjust(scene, noise);
   result.noise.measurement = estimatedNoise(scene, noise.measurement);
-  result.shared_error = std::max(1.0, result.shared_error * poseDeviation(scene, options));
+  result.shared_error = result.next_shared_error;
+  result.next_shared_error = std::max(1.0, result.shared_error * poseDeviation(scene, options));
 }
 
 AdjustmentNoise firstNoise(const MapBuilderOptions& options) {

@@ -16,6 +16,7 @@ struct ReconstructionResult {
   AdjustmentNoise noise;    ///< with the measurements' as estimated
   TrackCounts tracks;       ///< `covariance` is left to the caller
   double shared_error = 1;  ///< by how much less the measurements counted beside the given poses, see reconstruct()
+  double next_shared_error = 1;  ///< by how much less they would in another round
 };
 
 /// Matches overlapping keyframes, joins the matches to tracks, triangulates them and adjusts everything. Done in
@@ -24,7 +25,8 @@ struct ReconstructionResult {
 ///
 /// Errors that many features share (of lens, time stamps, the way that a detector drifts as it comes nearer) do not
 /// average out as their number says, and would bend the drive. They show where the poses end farther from those given
-/// than these are uncertain; measurements then count for less beside them, until that is no longer so.
+/// than these are uncertain; in each of the rounds after, measurements count for less beside them by as
+/// much.
 ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions& options,
                                  const BuildProgress& progress);
 

@@ -11,12 +11,12 @@
 namespace vmcl {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double full_turn = 2 * std::numbers::pi;
 
 /// So many turns either way reach every heading within seven deviations of the mean.
 int wrapsOf(double heading_deviation) {
   constexpr double most = 100;  // a heading so spread is as good as any
-  return static_cast<int>(std::min(most, std::floor(7 * heading_deviation / turn + 0.5)));
+  return static_cast<int>(std::min(most, std::floor(7 * heading_deviation / full_turn + 0.5)));
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ ModeMixture::ModeMixture(std::span<const PoseMode> modes) {
     if (cholesky.info() != Eigen::Success || !mode.covariance.allFinite() || !isFinite(mode.robot_in_map))
       throw std::invalid_argument("a mode's covariance is not positive semidefinite");
     Component component{mode.robot_in_map, cholesky.matrixL(), std::exp(mode.log_weight - top) / sum, 0, 0};
-    component.peak_density = component.weight / (std::pow(turn, 1.5) * component.root.diagonal().prod());
+    component.peak_density = component.weight / (std::pow(full_turn, 1.5) * component.root.diagonal().prod());
     component.wraps = wrapsOf(component.root.row(2).norm());
     components_.push_back(component);
   }
@@ -55,7 +55,7 @@ double ModeMixture::density(const PlanarPose& pose) const {
   for (const Component& component : components_) {
     const double angle = wrapAngle(pose.phi - component.mean.phi);
     for (int wrap = -component.wraps; wrap <= component.wraps; ++wrap) {
-      const Eigen::Vector3d offset(pose.x - component.mean.x, pose.y - component.mean.y, angle + wrap * turn);
+      const Eigen::Vector3d offset(pose.x - component.mean.x, pose.y - component.mean.y, angle + wrap * full_turn);
       sum += component.peak_density *
              std::exp(-component.root.triangularView<Eigen::Lower>().solve(offset).squaredNorm() / 2);
     }

@@ -12,6 +12,12 @@
 namespace vmcl {
 namespace {
 
+/// A wrong one lives through each further view by a chance of one half. What is seen but once has a measured depth, as
+/// good as another view.
+double chanceOfRightDepth(const Landmark& landmark) {
+  return 1 - std::exp2(1 - std::max(2, landmark.observation_count));
+}
+
 /// Points of a keyframe's features; how often their depths are right goes to `rates`.
 ReferenceView referenceView(const KeyframeMap& map, const Keyframe& keyframe, const RelocalizerOptions& options,
                             MatchRates& rates) {
@@ -31,7 +37,7 @@ ReferenceView referenceView(const KeyframeMap& map, const Keyframe& keyframe, co
     const bool is_reliable = largestSigma(landmark.covariance) <= options.max_point_sigma &&
                              (landmark.point_in_map - center).norm() <= options.reliable_depth;
     (is_reliable ? view.points : unreliable).push_back({landmark.point_in_map, landmark.covariance});
-    if (is_reliable) right += 1 - std::exp2(1 - std::max(1, landmark.observation_count));
+    if (is_reliable) right += chanceOfRightDepth(landmark);
   }
   view.with_depth = view.points.size();
   rates.reliable_depth = view.with_depth == 0 ? 0 : right / static_cast<double>(view.with_depth);

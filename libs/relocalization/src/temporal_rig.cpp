@@ -14,7 +14,8 @@ struct OdometryError {
   double position = 0, heading = 0;
 };
 
-/// As far as the error moves what is seen from the camera. Nearly as far as it is from the query's, too.
+/// As far as the error moves what is seen from the camera, which is about as far away as from the query's. All points
+/// of a frame share its error, which is taken here for one that each has by itself.
 void widen(MapPoint& point, const OdometryError& error, const ReferenceCamera& camera) {
   const double distance = (point.point_in_map - camera.map_from_camera.translation()).head<2>().norm();
   const double sigma = std::hypot(error.position, error.heading * distance);

@@ -109,6 +109,14 @@ ColourImage readColourImage(const std::filesystem::path& file) try {
   throw std::runtime_error(file.string() + ": " + error.what());
 }
 
+Image16 readImage16(const std::filesystem::path& file) try {
+  const cv::Mat image = decode(readBytes(file), cv::IMREAD_UNCHANGED);
+  if (image.type() != CV_16UC1) throw std::runtime_error("not an image of 16 bit depth");
+  return {image.cols, image.rows, std::vector<uint16_t>(image.begin<uint16_t>(), image.end<uint16_t>())};
+} catch (const std::exception& error) {
+  throw std::runtime_error(file.string() + ": " + error.what());
+}
+
 void writePng(const std::filesystem::path& file, const ImageView& image) {
   if (image.empty()) throw std::invalid_argument("no image to write");
   std::vector<uint8_t> bytes;

@@ -20,7 +20,7 @@ void ImageMask::check(int width, int height) const {
 
 bool ImageMask::hides(const Eigen::Vector2f& pixel) const {
   const Eigen::Vector2i at = pixel.array().round().cast<int>();
-  if (at.y() < rows_from_top) return true;
+  if (at.y() >= 0 && at.y() < rows_from_top) return true;
   return !white.empty() && at.x() >= 0 && at.x() < white.width && at.y() >= 0 && at.y() < white.height &&
          white.pixels[static_cast<std::size_t>(at.y()) * white.row_bytes + static_cast<std::size_t>(at.x())] >= 128;
 }

@@ -11,6 +11,8 @@ namespace {
 cv::Size sizeOf(const Network& network) {
   const cv::Size size = network.inputSize({8, 8});
   if (size != network.inputSize({16, 16})) network.refuse("its input has no fixed size");
+  constexpr int most = 2048;  // sides of what is kept for it
+  if (size.width > most || size.height > most) network.refuse("its input is larger than 2048 x 2048");
   return size;
 }
 

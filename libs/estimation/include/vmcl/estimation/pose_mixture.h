@@ -14,7 +14,14 @@ namespace vmcl {
 /// bearings alone of three with depth only on request: where all points are within 0.02 to 0.5 m of the camera's
 /// height, the case that they are for, they find the pose 0 to 1 % more often than the first two kinds do. Three with
 /// depth, bearings and elevations, only where the robot is not bound to the ground.
-enum class Solver { automatic, one_point_one_depth, two_depth, three_rays, three_bearings, three_depth };
+enum class Solver {  // maps keep the numbers of the first three
+  automatic = 0,
+  one_point_one_depth = 1,
+  two_depth = 2,
+  three_rays,
+  three_bearings,
+  three_depth
+};
 
 /// "auto", "1p1dp", "2dp", "3p", "3b" or "3dp".
 std::string_view nameOf(Solver solver);

@@ -55,7 +55,7 @@ struct MapBuildReport {
   double mean_observations = 0;                   ///< per landmark seen more than once
   double sigma_px = 0;                            ///< standard deviation of a feature's coordinate, as estimated
   double shared_error = 1;                        ///< by how much less measurements counted beside the given poses,
-                                                  ///< which they contradict by more than chance; 1: they do not
+                                                  ///< from which they led the drive away; 1: as much as noise says
   double sigma_depth = 0;                         ///< and of a measured depth at 1 m; 0: there is none
   double median_reprojection_px = 0;              ///< after adjustment
   std::vector<Eigen::Vector3d> mount_correction;  ///< per camera: roll, pitch, yaw turned about the robot axes (rad)

@@ -28,9 +28,19 @@ struct Image {
   ImageView view() const { return {pixels.data(), width, height, 1, static_cast<std::size_t>(width)}; }
 };
 
+/// An owned grey image of 16 bit, as depth cameras give.
+struct Image16 {
+  int width = 0;
+  int height = 0;
+  std::vector<uint16_t> pixels;
+};
+
 /// Reads a PNG or JPEG file as grey; an orientation tag is ignored, since calibrations speak of the pixels as stored.
 /// Throws std::runtime_error naming the file: missing, no such image, cut off, or more than 100 megapixels.
 Image readImage(const std::filesystem::path& file);
+
+/// The same of a file with 16 bit grey values; others are refused too.
+Image16 readImage16(const std::filesystem::path& file);
 
 /// The same of a BGR image, 8 bit, rows from the top.
 struct ColourImage {
