@@ -106,12 +106,11 @@ void writeExamples(const std::filesystem::path& directory, const KeyframeMap& ma
 int runData(const DataArguments& arguments) {
   if ((arguments.width > 0) != (arguments.height > 0))
     throw std::runtime_error("selector data: --width and --height go together");
-  std::filesystem::create_directories(arguments.out);
-  AtomicFile(std::filesystem::path(arguments.out) / "trials.csv");  // fails now rather than after the work
   const Relocalizer relocalizer(std::make_shared<const KeyframeMap>(loadMap(arguments.map)), arguments.options);
   CameraStream stream(arguments.rawlog);
   const std::vector<SolutionTrial> trials = allTrials(stream, relocalizer, arguments);
   const std::vector<Solver> labels = labelsOf(trials, relocalizer.map().keyframes.size());
+  std::filesystem::create_directories(arguments.out);
   writeTrials(std::filesystem::path(arguments.out) / "trials.csv", trials);
   writeExamples(arguments.out, relocalizer.map(), labels, arguments);
   stream.problems().print("selector data");

@@ -70,7 +70,7 @@ def save_checkpoint(file, settings, epoch, network, optimizer, scheduler, genera
 
 def load_checkpoint(file, settings, network, optimizer, scheduler, generator):
     """Returns how many epochs are done."""
-    state = torch.load(file, map_location='cpu', weights_only=True)
+    state = torch.load(file, map_location='cpu')
     if state.get('settings') != settings:
         raise ValueError(f'{file} is of other examples or settings: remove it to begin anew')
     network.load_state_dict(state['network'])

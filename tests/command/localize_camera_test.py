@@ -100,7 +100,8 @@ class LocalizeCameraTest(CommandTest):
                               (['--kidnap', '0', '1'], '--kidnap'),
                               (['--drop-images', '1'], 'drop_images'),
                               (['--odometry-scale', 'nan'], 'odometry_scale'),
-                              (['--dim', '1', '0', '0'], 'dim.for'), (['--dim', '1', '1', '2'], 'dim.light'), (['--set', 'min_share'], 'section.key=value'),
+                              (['--dim', '1', '0', '0'], 'dim.for'), (['--dim', '1', '1', '2'], 'dim.light'),
+                              (['--set', 'min_share'], 'section.key=value'),
                               (['--set', 'vmcl.min_sahre=1'], 'min_sahre'), (['--set', 'PF.BETA=1'], 'PF'),
                               (['--kidnap', '1', '5'], 'ends before the kidnapped robot is seen again')):
             with self.subTest(options):

@@ -196,7 +196,8 @@ class Folder {
     guarded([&] {
       Image16 depth = readDepth(line);
       checkSize(line, depth.width, depth.height);
-      recording_->addDepth(line.time, cv::Mat(depth.height, depth.width, CV_16UC1, depth.pixels.data()), line.place);
+      recording_->addDepth(line.time, cv::Mat(depth.height, depth.width, CV_16UC1, depth.pixels.data()).clone(),
+                           line.place);
     });
   }
 
