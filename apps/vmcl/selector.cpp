@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "choice_option.h"
 #include "coverage.h"
 #include "ordered_parallel.h"
+#include "problem_report.h"
 #include "progress_bar.h"
 #include "solution_trials.h"
 #include "verbs.h"
@@ -174,16 +177,23 @@ struct AskArguments {
 int runAsk(const AskArguments& arguments) {
   const SolutionNetwork network(arguments.network);
   std::cout << "image,1p1dp,2dp\n" << std::setprecision(std::numeric_limits<float>::max_digits10);
+  ProblemReport problems;
+  bool answered = false;
   for (const std::string& file : arguments.images) {
-    const ColourImage image = readColourImage(file);
     try {
+      const ColourImage image = readColourImage(file);
       const auto [one, two] = network(image.view());
       std::cout << file << ',' << one << ',' << two << '\n';
+      answered = true;
     } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(file + ": " + error.what());
+      problems.add(file + ": " + error.what());
+    } catch (const std::runtime_error& error) {  // which names the file
+      problems.add(error.what());
     }
   }
-  return exit_done;
+  if (!answered) throw std::runtime_error(problems.inOneLine());
+  problems.print("selector ask");
+  return problems.empty() ? exit_done : exit_some_input_bad;
 }
 
 void addData(CLI::App& verb, int& exit_code) {
@@ -201,8 +211,8 @@ void addData(CLI::App& verb, int& exit_code) {
             "Whose samples of either solution are compared: the paper's RANSAC, which counts inliers (the default), or "
             "vmcl's");
   data->add_option("--width", arguments->width, "Of the heat maps, pixels; as the images are if left out")
-      ->check(CLI::Range(8, 8192));
-  data->add_option("--height", arguments->height, "Likewise")->check(CLI::Range(8, 8192));
+      ->check(CLI::Range(8, 4096));
+  data->add_option("--height", arguments->height, "Likewise")->check(CLI::Range(8, 4096));
   data->add_option("--every", arguments->every, "Take only every such image")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));

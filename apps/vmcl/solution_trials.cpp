@@ -95,15 +95,10 @@ std::vector<SolutionTrial> solutionTrials(const Relocalizer& relocalizer, std::s
 }
 
 std::vector<Solver> labelsOf(std::span<const SolutionTrial> trials, std::size_t keyframes) {
-  std::vector<int> votes(keyframes);  // for 2DP, less those for 1P1DP
-  for (const SolutionTrial& trial : trials) {
-    const Solver better = trial.better();
-    votes[static_cast<std::size_t>(trial.keyframe)] +=
-        (better == Solver::two_depth) - (better == Solver::one_point_one_depth);
-  }
+  std::vector<SolutionVotes> votes(keyframes);
+  for (const SolutionTrial& trial : trials) votes[static_cast<std::size_t>(trial.keyframe)].add(trial.better());
   std::vector<Solver> labels;
-  for (const int vote : votes)
-    labels.push_back(vote == 0 ? Solver::automatic : vote > 0 ? Solver::two_depth : Solver::one_point_one_depth);
+  for (const SolutionVotes& of_keyframe : votes) labels.push_back(of_keyframe.winner());
   return labels;
 }
 

@@ -100,6 +100,10 @@ class SelectorTest(CommandTest):
         self.assert_refused(['selector', 'ask', 'nowhere.onnx', 'a.png'], 'nowhere.onnx')
         self.write('text.png', 'no image')
         self.assert_refused(['selector', 'ask', SELECTOR / 'compact.onnx', 'text.png'], 'text.png')
+        good = self.write('good.png', noise_png(160, 120, seed=0))
+        some = self.vmcl('selector', 'ask', SELECTOR / 'compact.onnx', 'text.png', good)
+        self.assert_complaint(some, SOME_INPUT_BAD, 'text.png')
+        self.assertEqual(len(some.stdout.splitlines()), 2)
         self.write('early.tum', '1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n')
         self.assert_refused(['selector', 'data', '--map', MAP, '--rawlog', LOG, '--groundtruth', 'early.tum', '--out',
                              'data'], 'early.tum', 'covers no image')

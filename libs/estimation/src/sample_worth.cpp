@@ -117,12 +117,12 @@ class NoisySample {
   Random& random_;
 };
 
-bool isWithin(const Tolerance& tolerance, const PlanarTransform& found, const PlanarPose& truth) {
-  const Eigen::Vector3d error = difference(found.pose(), truth);
-  return error.head<2>().norm() <= tolerance.position && std::abs(error.z()) <= tolerance.heading;
-}
-
 }  // namespace
+
+bool Tolerance::holds(const PlanarTransform& found, const PlanarPose& truth) const {
+  const Eigen::Vector3d error = difference(found.pose(), truth);
+  return error.head<2>().norm() <= position && std::abs(error.z()) <= heading;
+}
 
 void MatchRates::check() const {
   const auto rate = [](const char* key, double value) {
@@ -164,11 +164,11 @@ SampleWorth sampleWorth(Solver solver, const ReferenceView& view, const QueryCam
     for (int draw = 0; draw < draws; ++draw) {
       if (solver == Solver::two_depth) {
         const auto found = sample.twoDepth(first, second);
-        within += found && isWithin(tolerance, *found, map_from_robot);
+        within += found && tolerance.holds(*found, map_from_robot);
       } else {
         const PlanarRoots found = sample.onePointOneDepth(first, second);
-        within += (found.count > 0 && isWithin(tolerance, found.roots[0], map_from_robot)) ||
-                  (found.count > 1 && isWithin(tolerance, found.roots[1], map_from_robot));
+        within += (found.count > 0 && tolerance.holds(found.roots[0], map_from_robot)) ||
+                  (found.count > 1 && tolerance.holds(found.roots[1], map_from_robot));
       }
     }
     if (!covariance) continue;

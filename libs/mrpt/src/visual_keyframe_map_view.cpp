@@ -15,28 +15,29 @@ using mrpt::opengl::CSetOfLines;
 
 TPoint3D pointOf(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
 
-CPointCloud::Ptr landmarkCloud(const KeyframeMap& map) {
+CPointCloud::Ptr emptyCloud(const char* name, const mrpt::img::TColorf& color, float size_px) {
   auto cloud = CPointCloud::Create();
-  cloud->setName("landmarks");
-  cloud->setColor(mrpt::img::TColorf(0.3F, 0.3F, 0.3F));
-  cloud->setPointSize(2);
-  for (const Landmark& landmark : map.landmarks) {
-    const Eigen::Vector3f point = landmark.point_in_map.cast<float>();
-    cloud->insertPoint(point.x(), point.y(), point.z());
-  }
+  cloud->setName(name);
+  cloud->setColor(color);
+  cloud->setPointSize(size_px);
+  return cloud;
+}
+
+void insert(CPointCloud& cloud, const Eigen::Vector3d& point_in_map) {
+  const Eigen::Vector3f point = point_in_map.cast<float>();
+  cloud.insertPoint(point.x(), point.y(), point.z());
+}
+
+CPointCloud::Ptr landmarkCloud(const KeyframeMap& map) {
+  auto cloud = emptyCloud("landmarks", {0.3F, 0.3F, 0.3F}, 2);
+  for (const Landmark& landmark : map.landmarks) insert(*cloud, landmark.point_in_map);
   return cloud;
 }
 
 CPointCloud::Ptr matchedPoints(const PoseProblem& problem) {
-  auto cloud = CPointCloud::Create();
-  cloud->setName("matches");
-  cloud->setColor(mrpt::img::TColorf(0.1F, 0.7F, 0.2F));
-  cloud->setPointSize(5);
-  for (const Match& match : problem.matches) {
-    if (!match.point) continue;
-    const Eigen::Vector3f point = match.point->point_in_map.cast<float>();
-    cloud->insertPoint(point.x(), point.y(), point.z());
-  }
+  auto cloud = emptyCloud("matches", {0.1F, 0.7F, 0.2F}, 5);
+  for (const Match& match : problem.matches)
+    if (match.point) insert(*cloud, match.point->point_in_map);
   return cloud;
 }
 

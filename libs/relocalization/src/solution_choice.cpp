@@ -93,13 +93,12 @@ void chooseByNetwork(KeyframeMap& map, const SolutionNetwork& network, const Rel
 }
 
 Solver chosenSolution(const KeyframeMap& map, const RelocalizationResult& matched) {
-  int votes = 0;  // for 2DP, less those for 1P1DP
+  SolutionVotes votes;
   for (const Match& match : matched.problem.matches) {
     const int keyframe = matched.keyframes[static_cast<std::size_t>(match.reference_camera)];
-    const Solver solution = map.keyframes[static_cast<std::size_t>(keyframe)].solution;
-    votes += (solution == Solver::two_depth) - (solution == Solver::one_point_one_depth);
+    votes.add(map.keyframes[static_cast<std::size_t>(keyframe)].solution);
   }
-  return votes == 0 ? Solver::automatic : votes > 0 ? Solver::two_depth : Solver::one_point_one_depth;
+  return votes.winner();
 }
 
 }  // namespace vmcl

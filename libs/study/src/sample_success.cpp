@@ -16,10 +16,7 @@ double sampleSuccess(Solver solver, const PoseProblem& problem, const PlanarPose
                      uint64_t seed, const Tolerance& tolerance) {
   const SolverMatches matches(problem);
   const auto all = static_cast<uint32_t>(matches.all.size()), deep = static_cast<uint32_t>(matches.with_depth.size());
-  const auto isNear = [&](const PlanarTransform& found) {
-    const Eigen::Vector3d error = difference(found.pose(), map_from_robot);
-    return error.head<2>().norm() <= tolerance.position && std::abs(error.z()) <= tolerance.heading;
-  };
+  const auto isNear = [&](const PlanarTransform& found) { return tolerance.holds(found, map_from_robot); };
   Random random(seed);
   int successes = 0;
   if (solver == Solver::one_point_one_depth) {

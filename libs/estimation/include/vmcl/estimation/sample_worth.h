@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vmcl/estimation/pose_mixture.h"
+#include "vmcl/geometry/planar_transform.h"
 #include "vmcl/geometry/pose_problem.h"
 
 namespace vmcl {
@@ -49,6 +50,8 @@ struct QuerySpread {
 struct Tolerance {
   double position = 0.25;       ///< m
   double heading = 5 * degree;  ///< rad
+
+  bool holds(const PlanarTransform& found, const PlanarPose& truth) const;
 };
 
 /// What one random sample is worth.
