@@ -208,6 +208,10 @@ void addRelocalizeVerb(CLI::App& app, int& exit_code) {
   verb->add_option("--retrieved", arguments->options.retrieved, "Keyframes that each image is matched with")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
+  verb->add_option("--ranked", arguments->options.ranked,
+                   "Most alike keyframes, from which those that match best are chosen; 0: the most alike")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
   addChoice(
       *verb, "--setting", arguments->options.setting,
       std::map<std::string, MatchSetting>{

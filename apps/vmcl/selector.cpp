@@ -27,7 +27,7 @@ namespace {
 
 struct DataArguments {
   std::string map, rawlog, groundtruth, out;
-  RelocalizerOptions options{.retrieved = 10};
+  RelocalizerOptions options{.retrieved = 10, .ranked = 0};
   Judge judge = Judge::counting;
   int width = 0, height = 0;  ///< of the heat maps; 0: of the camera's images
   int every = 1;

@@ -197,6 +197,7 @@ TEST(RelocalizerOptionsTest, NameTheBadKey) {
     EXPECT_THAT([&] { options.check(); }, ThrowsMessage<std::invalid_argument>(HasSubstr(key)));
   };
   refused({.retrieved = 0}, "retrieved");
+  refused({.ranked = -1}, "ranked");
   refused({.reliable_depth = 0}, "reliable_depth");
   refused({.max_point_sigma = std::nan("")}, "max_point_sigma");
   refused({.matching = {.max_ratio = 2}}, "max_ratio");

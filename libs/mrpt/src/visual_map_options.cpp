@@ -18,6 +18,7 @@ void visitLikelihoodOptions(Options& options, Visit&& visit) {
   visit("match_weight", options.match_weight);
   visit("max_matches", options.max_matches);
   visit("retrieved", relocalizer.retrieved);
+  visit("ranked", relocalizer.ranked);
   visit("reliable_depth", relocalizer.reliable_depth);
   visit("max_point_sigma", relocalizer.max_point_sigma);
   visit("max_ratio", relocalizer.matching.max_ratio);

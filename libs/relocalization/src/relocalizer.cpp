@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "dense_correspondences.h"
+#include "inlier_odds.h"
 #include "largest_sigma.h"
 #include "match_candidate.h"
+#include "place_ranking.h"
 #include "reference_depth.h"
 #include "vmcl/relocalization/solution_choice.h"
 
@@ -29,14 +31,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// Odds of a match by its ratio, over those of all: fitted to where the pixels of 255,000 SIFT matches between day and
-/// evening fall in simulated rooms, at the true pose; 60 at most. It is all but the same in each; ORB's is a little
-/// flatter. Of other kinds nothing is known.
-double inlierOdds(float ratio, FeatureKind kind) {
-  const bool is_known = kind == FeatureKind::sift || kind == FeatureKind::orb;
-  return is_known ? std::exp(11 * (0.63 - std::max(double{ratio}, 0.26))) : 1;
-}
 
 std::shared_ptr<const KeyframeMap> checked(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options) {
   options.check();
@@ -68,6 +62,7 @@ void RelocalizerOptions::check() const {
     if (!holds) throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", not positive");
   };
   require(retrieved >= 1, "retrieved", retrieved);
+  if (ranked < 0) throw std::invalid_argument("ranked is " + std::to_string(ranked) + ", negative");
   require(reliable_depth > 0, "reliable_depth", reliable_depth);
   require(max_point_sigma > 0, "max_point_sigma", max_point_sigma);
 }
@@ -167,15 +162,15 @@ struct Relocalizer::State {
     stopwatch.addTo(result.times.features);
     if (query.size() == 0) return;
     const std::vector<RetrievedPlace> places =
-        retrieve(map->place_descriptors, map->vocabulary.describe(query), options.retrieved);
+        retrieve(map->place_descriptors, map->vocabulary.describe(query), std::max(options.retrieved, options.ranked));
     stopwatch.addTo(result.times.retrieval);
     const auto dense_matcher = options.setting == MatchSetting::scsd ? nullptr : gridMatcher(image.image, image.mask);
     std::vector<MatchCandidate> all;
-    for (const RetrievedPlace& place : places) {
-      const Keyframe& reference = keyframe(place.index);
+    for (const int index : bestMatched(places, query, *map, options)) {
+      const Keyframe& reference = keyframe(index);
       Match match;
       match.query_camera = query_camera;
-      match.reference_camera = referenceCamera(place.index, result);
+      match.reference_camera = referenceCamera(index, result);
       const std::size_t first = all.size();
       addSparse(query, reference, match, all);
       if (dense_matcher) addDense(*dense_matcher, image, reference, match, all);

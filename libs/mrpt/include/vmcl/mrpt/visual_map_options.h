@@ -30,8 +30,9 @@ struct VisualMapOptions {
   double match_weight = 0.04;    ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
   int max_matches = 0;           ///< [.._likelihoodOpts] most matches of an image that particles are weighed by, which
                                  ///< count as all do; 0: all
-  RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, reliable_depth, max_point_sigma, max_ratio,
-                                   ///< sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations, max_modes
+  RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, ranked, reliable_depth, max_point_sigma,
+                                   ///< max_ratio, sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations,
+                                   ///< max_modes
   std::string features = "sift";   ///< [.._insertOpts] sift or orb
   MapBuilderOptions builder;       ///< [.._insertOpts] max_features, mask_rows_from_top, keyframe_distance,
                                    ///< keyframe_rotation, sigma_mount_tilt, words

@@ -28,6 +28,8 @@ struct RelocalizerOptions {
   MatchingOptions matching{};
   MatchSetting setting = MatchSetting::scsd;
   int retrieved = 3;             ///< reference keyframes per image (the paper's 3)
+  int ranked = 20;               ///< most alike keyframes, from which those are chosen that match best; none more than
+                                 ///< `retrieved`: these are the most alike
   double reliable_depth = 10;    ///< landmarks farther from the reference than this (m) give 2D-2D matches
   double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
                                  ///< than the paper's 5 m, since each point carries its covariance
