@@ -25,6 +25,7 @@ struct MapArguments {
   std::string features = "sift";
   double keyframe_rotation_deg = MapBuilderOptions().keyframe_rotation / degree;
   double sigma_heading_deg = MapBuilderOptions().sigma_heading / degree;
+  double sigma_tilt_deg = MapBuilderOptions().sigma_tilt / degree;
   double sigma_mount_tilt_deg = MapBuilderOptions().sigma_mount_tilt / degree;
   MapBuilderOptions options;
 
@@ -33,6 +34,7 @@ struct MapArguments {
     complete.features.choose(features);
     complete.keyframe_rotation = keyframe_rotation_deg * degree;
     complete.sigma_heading = sigma_heading_deg * degree;
+    complete.sigma_tilt = sigma_tilt_deg * degree;
     complete.sigma_mount_tilt = sigma_mount_tilt_deg * degree;
     return complete;
   }
@@ -146,11 +148,15 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn")->capture_default_str();
   verb.add_flag("--flat,!--not-flat", options.flat,
-                "the robot stands level at height 0, the default; or as high and tilted as its poses say")
+                "the robot stands level at height 0, the default; or as high and tilted as its poses say, up to")
       ->capture_default_str();
   verb.add_option("--sigma-position", options.sigma_position, "standard deviation of the given positions (m)")
       ->capture_default_str();
   verb.add_option("--sigma-heading-deg", arguments.sigma_heading_deg, "and headings")->capture_default_str();
+  verb.add_option("--sigma-tilt-deg", arguments.sigma_tilt_deg,
+                  "standard deviation of the robot's roll and pitch about these; 0: exact")
+      ->capture_default_str();
+  verb.add_option("--sigma-height", options.sigma_height, "and of its height (m)")->capture_default_str();
   verb.add_option("--sigma-mount-tilt-deg", arguments.sigma_mount_tilt_deg,
                   "standard deviation of the given mount's roll, pitch and yaw; 0: exact")
       ->capture_default_str();

@@ -18,6 +18,7 @@ Reconstruction brokenScene() {
   scene.map_from_robot.resize(3);
   scene.depths.resize(3);
   scene.level_from_robot.resize(3, Rigid3::Identity());
+  scene.stance.resize(3, Eigen::Vector3d::Zero());
   for (Keyframe& keyframe : scene.keyframes) keyframe.features.pixels.emplace_back(320, 240);
   scene.points.push_back({Eigen::Vector3d::Constant(std::nan("")), {{0, 0}, {1, 0}, {2, 0}}});
   return scene;

@@ -85,6 +85,8 @@ struct Recording {
   double sigma_depth = 0;  ///< of the inverse depth (1/m); 0: none is measured
   double sigma_position = 0.02;
   double sigma_heading = 0.01;
+  double sigma_tilt = 0.005;    ///< of the roll and pitch that the floor gives the robot, in addition to those given,
+  double sigma_height = 0.003;  ///< and of its height
   double outliers = 0.1;
   mutable std::vector<Rigid3> given_poses{};  ///< of the map built last
 
@@ -106,8 +108,16 @@ struct Recording {
     options.sigma_px = sigma_px;
     options.sigma_position = sigma_position;
     options.sigma_heading = sigma_heading;
+    options.sigma_tilt = sigma_tilt;
+    options.sigma_height = sigma_height;
     options.words = 8;
     return options;
+  }
+
+  Rigid3 stance(Random& random) const {
+    const double roll = sigma_tilt * random.normal(), pitch = sigma_tilt * random.normal();
+    return Eigen::Translation3d(0, 0, sigma_height * random.normal()) *
+           Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
   }
 
   std::pair<KeyframeMap, MapBuildReport> build(const MapBuilderOptions& options, uint64_t seed) const {
@@ -116,7 +126,8 @@ struct Recording {
     const MapCamera camera = trueCamera();
     given_poses.clear();
     for (std::size_t i = 0; i < drive.size(); ++i) {
-      const ReferenceCamera view{camera.calibration.pinhole, toRigid3(drive[i]) * camera.robot_from_camera};
+      const ReferenceCamera view{camera.calibration.pinhole,
+                                 toRigid3(drive[i]) * stance(random) * camera.robot_from_camera};
       const PlanarPose given{drive[i].x + sigma_position * random.normal(),
                              drive[i].y + sigma_position * random.normal(),
                              drive[i].phi + sigma_heading * random.normal()};

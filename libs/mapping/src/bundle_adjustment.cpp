@@ -27,6 +27,12 @@ struct PriorResidual {
   }
 };
 
+/// Where and how the robot stands, side by side: within a group Ceres orders by address.
+struct Stand {
+  Eigen::Vector3d pose;  ///< x, y, phi
+  Eigen::Vector3d stance;
+};
+
 void addPrior(ceres::Problem& problem, const Eigen::Vector3d& given, const Eigen::Vector3d& weights, double* value) {
   using Cost = ceres::AutoDiffCostFunction<PriorResidual, 3, 3>;
   problem.AddResidualBlock(new Cost(new PriorResidual{given, weights}), nullptr, value);
@@ -47,6 +53,8 @@ ceres::Solver::Options solverOptions() {
 
 Eigen::Vector3d AdjustmentNoise::poseWeights() const { return weights({position, position, heading}); }
 
+Eigen::Vector3d AdjustmentNoise::stanceWeights() const { return weights({tilt, tilt, height}); }
+
 Eigen::Vector3d AdjustmentNoise::mountRotationWeights() const {
   return weights(Eigen::Vector3d::Constant(mount_rotation));
 }
@@ -63,17 +71,22 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(problem_options);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  std::vector<Eigen::Vector3d> poses;
-  for (const PlanarPose& pose : scene.map_from_robot) poses.emplace_back(pose.x, pose.y, pose.phi);
-  for (std::size_t k = 0; k < poses.size(); ++k) {
+  std::vector<Stand> stands;
+  for (std::size_t k = 0; k < scene.keyframes.size(); ++k) {
+    const PlanarPose& pose = scene.map_from_robot[k];
+    stands.push_back({{pose.x, pose.y, pose.phi}, scene.stance[k]});
+  }
+  for (std::size_t k = 0; k < stands.size(); ++k) {
+    auto& [pose, stance] = stands[k];
     const PlanarPose given = planarPart(scene.keyframes[k].map_from_robot);
-    const double nearest_phi = poses[k].z() + wrapAngle(given.phi - poses[k].z());
-    addPrior(problem, {given.x, given.y, nearest_phi}, noise.poseWeights(), poses[k].data());
-    ordering->AddElementToGroup(poses[k].data(), 1);
+    const double nearest_phi = pose.z() + wrapAngle(given.phi - pose.z());
+    addPrior(problem, {given.x, given.y, nearest_phi}, noise.poseWeights(), pose.data());
+    addPrior(problem, Eigen::Vector3d::Zero(), noise.stanceWeights(), stance.data());
+    for (double* moved : {pose.data(), stance.data()}) ordering->AddElementToGroup(moved, 1);
   }
   const auto addCorrection = [&](Eigen::Vector3d& correction, const Eigen::Vector3d& correction_weights) {
     addPrior(problem, Eigen::Vector3d::Zero(), correction_weights, correction.data());
-    ordering->AddElementToGroup(correction.data(), 2);  // within a group Ceres orders by address
+    ordering->AddElementToGroup(correction.data(), 2);
   };
   for (CameraCorrection& correction : scene.corrections) {
     addCorrection(correction.rotation, noise.mountRotationWeights());
@@ -89,11 +102,13 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
       const MeasuringCamera from{&scene.cameras[camera], &scene.level_from_robot[k]};
       auto* cost = new ReprojectionCost(  // owned by the problem
           new ReprojectionResidual{from, scene.distortedPixel(seen), noise.measurement.pixel});
-      problem.AddResidualBlock(cost, &loss, poses[k].data(), correction.rotation.data(), correction.shift.data(),
+      double* const pose = stands[k].pose.data();
+      double* const stance = stands[k].stance.data();
+      problem.AddResidualBlock(cost, &loss, pose, stance, correction.rotation.data(), correction.shift.data(),
                                correction.lens.data(), correction.radial.data(), point.point_in_map.data());
       if (const double depth = scene.depth(seen); depth > 0)
         problem.AddResidualBlock(new DepthCost(new DepthResidual{from, depth, noise.measurement.inverse_depth}), &loss,
-                                 poses[k].data(), correction.rotation.data(), correction.shift.data(),
+                                 pose, stance, correction.rotation.data(), correction.shift.data(),
                                  point.point_in_map.data());
     }
     ordering->AddElementToGroup(point.point_in_map.data(), 0);
@@ -103,8 +118,11 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) throw std::runtime_error("the map cannot be adjusted: " + summary.message);
-  for (std::size_t k = 0; k < poses.size(); ++k)
-    scene.map_from_robot[k] = {poses[k].x(), poses[k].y(), wrapAngle(poses[k].z())};
+  for (std::size_t k = 0; k < stands.size(); ++k) {
+    const auto& [pose, stance] = stands[k];
+    scene.map_from_robot[k] = {pose.x(), pose.y(), wrapAngle(pose.z())};
+    scene.stance[k] = stance;
+  }
 }
 
 }  // namespace vmcl

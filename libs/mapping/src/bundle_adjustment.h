@@ -11,6 +11,8 @@ struct AdjustmentNoise {
   MeasurementNoise measurement;
   double position = 0.02;        ///< of the given robot poses (m)
   double heading = 0.01;         ///< of the given robot poses (rad)
+  double tilt = 0.005;           ///< of the robot's roll and pitch about the given (rad)
+  double height = 0.003;         ///< of its height about the given (m)
   double mount_rotation = 0.05;  ///< of the given mounts' roll, pitch and yaw (rad)
   double mount_shift = 0.02;     ///< of the given mounts' x and y (m)
   double focal = 0.03;           ///< of the given focal lengths, relative
@@ -18,6 +20,8 @@ struct AdjustmentNoise {
 
   /// 1 / sigma of the planar pose's (x, y, phi).
   Eigen::Vector3d poseWeights() const;
+  /// 1 / sigma of Reconstruction::stance.
+  Eigen::Vector3d stanceWeights() const;
   /// 1 / sigma of each angle of a mount.
   Eigen::Vector3d mountRotationWeights() const;
   /// 1 / sigma of a mount's (x, y, z).
@@ -28,7 +32,7 @@ struct AdjustmentNoise {
   Eigen::Vector3d radialWeights() const;
 };
 
-/// Bundle adjustment: moves points, poses and camera corrections to the least robust sum of squared errors of
+/// Bundle adjustment: moves points, poses, stances and camera corrections to the least robust sum of squared errors of
 /// reprojection and depth and deviations from what was given, each in standard deviations. Deterministic.
 /// Throws std::runtime_error when it fails numerically.
 void adjust(Reconstruction& scene, const AdjustmentNoise& noise);

@@ -69,16 +69,17 @@ class BlockMatrix {
   std::map<std::pair<int, int>, Block> entries_;
 };
 
-/// Numbers of the blocks that an observation depends on: keyframes, then for each camera its corrections.
-std::array<int, 5> blocksOf(const Reconstruction& scene, int keyframe) {
+/// Numbers of the blocks that an observation depends on: for each keyframe its pose and stance, then for each camera
+/// its corrections.
+std::array<int, 6> blocksOf(const Reconstruction& scene, int keyframe) {
   const int camera = scene.keyframes[static_cast<std::size_t>(keyframe)].camera;
-  const int rotation = static_cast<int>(scene.keyframes.size()) + 4 * camera;
-  return {keyframe, rotation, rotation + 1, rotation + 2, rotation + 3};
+  const int rotation = 2 * static_cast<int>(scene.keyframes.size()) + 4 * camera;
+  return {2 * keyframe, 2 * keyframe + 1, rotation, rotation + 1, rotation + 2, rotation + 3};
 }
 
 /// Derivatives of what an observation says, pixel and depth, in standard deviations: by its blocks and last by the
 /// point. Weighted as the robust loss weighs them.
-std::array<Block, 6> derivatives(const Reconstruction& scene, const MeasurementNoise& noise, const Observation& seen,
+std::array<Block, 7> derivatives(const Reconstruction& scene, const MeasurementNoise& noise, const Observation& seen,
                                  const Eigen::Vector3d& point_in_map) {
   const auto k = static_cast<std::size_t>(seen.keyframe);
   const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
@@ -86,27 +87,28 @@ std::array<Block, 6> derivatives(const Reconstruction& scene, const MeasurementN
   const double pose_values[] = {pose.x, pose.y, pose.phi};
   const CameraCorrection& given = scene.corrections[camera];
   const MeasuringCamera from{&scene.cameras[camera], &scene.level_from_robot[k]};
-  const double* values[] = {pose_values,       given.rotation.data(), given.shift.data(),
-                            given.lens.data(), given.radial.data(),   point_in_map.data()};
+  const double* values[] = {pose_values,       scene.stance[k].data(), given.rotation.data(), given.shift.data(),
+                            given.lens.data(), given.radial.data(),    point_in_map.data()};
   const ReprojectionCost reprojection(new ReprojectionResidual{from, scene.distortedPixel(seen), noise.pixel});
   Eigen::Vector2d pixel_error;
-  std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 6> pixel_by;
-  std::array<double*, 6> pixel_jacobians;
-  for (std::size_t i = 0; i < 6; ++i) pixel_jacobians[i] = pixel_by[i].data();
+  std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 7> pixel_by;
+  std::array<double*, 7> pixel_jacobians;
+  for (std::size_t i = 0; i < 7; ++i) pixel_jacobians[i] = pixel_by[i].data();
   reprojection.Evaluate(values, pixel_error.data(), pixel_jacobians.data());
-  std::array<Block, 6> all;
-  for (std::size_t i = 0; i < 6; ++i)
+  std::array<Block, 7> all;
+  for (std::size_t i = 0; i < 7; ++i)
     all[i] << huberWeight(pixel_error.norm()) * pixel_by[i], Eigen::RowVector3d::Zero();
 
   if (const double depth = scene.depth(seen); depth > 0) {
     const DepthCost cost(new DepthResidual{from, depth, noise.inverse_depth});
-    const std::array<std::size_t, 4> depends_on = {0, 1, 2, 5};
-    const double* depth_values[] = {values[0], values[1], values[2], values[5]};
+    const std::array<std::size_t, 5> depends_on = {0, 1, 2, 3, 6};
+    const double* depth_values[] = {values[0], values[1], values[2], values[3], values[6]};
     double error = 0;
-    std::array<Eigen::RowVector3d, 4> depth_by;
-    double* depth_jacobians[] = {depth_by[0].data(), depth_by[1].data(), depth_by[2].data(), depth_by[3].data()};
+    std::array<Eigen::RowVector3d, 5> depth_by;
+    double* depth_jacobians[] = {depth_by[0].data(), depth_by[1].data(), depth_by[2].data(), depth_by[3].data(),
+                                 depth_by[4].data()};
     cost.Evaluate(depth_values, &error, depth_jacobians);
-    for (std::size_t i = 0; i < 4; ++i) all[depends_on[i]].row(2) = huberWeight(std::abs(error)) * depth_by[i];
+    for (std::size_t i = 0; i < 5; ++i) all[depends_on[i]].row(2) = huberWeight(std::abs(error)) * depth_by[i];
   }
   return all;
 }
@@ -114,11 +116,11 @@ std::array<Block, 6> derivatives(const Reconstruction& scene, const MeasurementN
 PointEquations linearize(const Reconstruction& scene, const MeasurementNoise& noise, const ScenePoint& point) {
   PointEquations equations;
   for (const Observation& seen : point.track) {
-    const std::array<Block, 6> J = derivatives(scene, noise, seen, point.point_in_map);
-    equations.information += J[5].transpose() * J[5];
-    const std::array<int, 5> blocks = blocksOf(scene, seen.keyframe);
-    for (std::size_t a = 0; a < 5; ++a) {
-      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[5];
+    const std::array<Block, 7> J = derivatives(scene, noise, seen, point.point_in_map);
+    equations.information += J[6].transpose() * J[6];
+    const std::array<int, 6> blocks = blocksOf(scene, seen.keyframe);
+    for (std::size_t a = 0; a < 6; ++a) {
+      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[6];
       for (std::size_t b = 0; b <= a; ++b)
         equations.of_the_poses.try_emplace({blocks[a], blocks[b]}, Block::Zero()).first->second +=
             J[a].transpose() * J[b];
@@ -143,12 +145,15 @@ Block eliminate(PointEquations& equations, BlockMatrix& pose_information) {
 }  // namespace
 
 std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const AdjustmentNoise& noise) {
-  const int keyframes = static_cast<int>(scene.keyframes.size());
-  const int blocks = keyframes + 4 * static_cast<int>(scene.cameras.size());
+  const int of_keyframes = 2 * static_cast<int>(scene.keyframes.size());
+  const int blocks = of_keyframes + 4 * static_cast<int>(scene.cameras.size());
   BlockMatrix pose_information(blocks);
   const auto squared = [](const Eigen::Vector3d& weights) { return Block(weights.cwiseAbs2().asDiagonal()); };
-  for (int i = 0; i < keyframes; ++i) pose_information.add(i, i, squared(noise.poseWeights()));
-  for (int i = keyframes; i < blocks; i += 4) {
+  for (int i = 0; i < of_keyframes; i += 2) {
+    pose_information.add(i, i, squared(noise.poseWeights()));
+    pose_information.add(i + 1, i + 1, squared(noise.stanceWeights()));
+  }
+  for (int i = of_keyframes; i < blocks; i += 4) {
     pose_information.add(i, i, squared(noise.mountRotationWeights()));
     pose_information.add(i + 1, i + 1, squared(noise.mountShiftWeights()));
     pose_information.add(i + 2, i + 2, squared(noise.lensWeights()));

@@ -50,6 +50,8 @@ void MapBuilderOptions::check() const {
   require(isAtLeast(sigma_px, 1e-3), "sigma_px", sigma_px);
   require(isAtLeast(sigma_position, 0), "sigma_position", sigma_position);
   require(isAtLeast(sigma_heading, 0), "sigma_heading", sigma_heading);
+  require(isAtLeast(sigma_tilt, 0), "sigma_tilt", sigma_tilt);
+  require(isAtLeast(sigma_height, 0), "sigma_height", sigma_height);
   require(isAtLeast(sigma_mount_tilt, 0), "sigma_mount_tilt", sigma_mount_tilt);
   require(isAtLeast(sigma_mount_shift, 0), "sigma_mount_shift", sigma_mount_shift);
   require(isAtLeast(sigma_focal, 0), "sigma_focal", sigma_focal);
@@ -168,6 +170,7 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   scene.cameras = state_->cameras;
   scene.corrections.resize(scene.cameras.size());
   scene.keyframes = std::exchange(state_->keyframes, {});
+  scene.stance.assign(scene.keyframes.size(), Eigen::Vector3d::Zero());
   scene.depths = std::exchange(state_->depths, {});
   for (const Keyframe& keyframe : scene.keyframes) {
     scene.map_from_robot.push_back(planarPart(keyframe.map_from_robot));

@@ -11,12 +11,13 @@ namespace vmcl {
 struct PoseUncertainty {
   double position = 0;    ///< m
   double heading = 0;     ///< rad
+  double tilt = 0;        ///< of the robot's roll and pitch (rad)
   double mount_tilt = 0;  ///< of a camera on the robot, common to its views (rad)
 
   /// Standard deviation (rad) of the direction in which a point at `depth` (m) is seen, in views that differ by
   /// `view_difference` (rad): a common tilt shows only as far as the views differ.
   double ofDirection(double depth, double view_difference) const {
-    return Eigen::Vector3d(heading, position / depth, mount_tilt * view_difference).norm();
+    return Eigen::Vector4d(heading, tilt, position / depth, mount_tilt * view_difference).norm();
   }
 };
 

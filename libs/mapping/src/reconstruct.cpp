@@ -28,7 +28,8 @@ struct MatchedPair {
 };
 
 PoseUncertainty uncertainty(const MapBuilderOptions& options, double share) {
-  return {share * options.sigma_position, share * options.sigma_heading, share * options.sigma_mount_tilt};
+  return {share * options.sigma_position, share * options.sigma_heading, share * options.sigma_tilt,
+          share * options.sigma_mount_tilt};
 }
 
 std::vector<ReferenceCamera> allViews(const Reconstruction& scene) {
@@ -174,7 +175,8 @@ void adjustAndJudge(Reconstruction& scene, ReconstructionResult& result, const M
 }
 
 AdjustmentNoise firstNoise(const MapBuilderOptions& options) {
-  return {{.pixel = options.sigma_px}, options.sigma_position, options.sigma_heading, options.sigma_mount_tilt,
+  return {{.pixel = options.sigma_px}, options.sigma_position, options.sigma_heading,
+          options.sigma_tilt,          options.sigma_height,   options.sigma_mount_tilt,
           options.sigma_mount_shift,   options.sigma_focal,    options.sigma_radial};
 }
 

@@ -49,7 +49,8 @@ struct Reconstruction {
   std::vector<std::vector<float>> depths;     ///< per keyframe: of each feature along the axis (m), 0 where it was not
                                               ///< measured; empty where no feature's was
   std::vector<PlanarPose> map_from_robot;     ///< per keyframe
-  std::vector<Rigid3> level_from_robot;       ///< per keyframe: height, roll and pitch as given, over the planar pose
+  std::vector<Eigen::Vector3d> stance;        ///< per keyframe: roll and pitch (rad) and height (m) off the level
+  std::vector<Rigid3> level_from_robot;       ///< per keyframe: height, roll and pitch as given, over pose and stance
   std::vector<ScenePoint> points;
 
   Rigid3 robotFromCamera(int camera) const {
@@ -62,7 +63,10 @@ struct Reconstruction {
 
   Rigid3 pose(int keyframe) const {
     const auto k = static_cast<std::size_t>(keyframe);
-    return toRigid3(map_from_robot[k]) * level_from_robot[k];
+    Rigid3 ground_from_level = Rigid3::Identity();
+    ground_from_level.linear() = rotationFromRollPitchYaw<double>({stance[k].x(), stance[k].y(), 0});
+    ground_from_level.translation().z() = stance[k].z();
+    return toRigid3(map_from_robot[k]) * ground_from_level * level_from_robot[k];
   }
 
   CameraCalibration calibration(int camera) const;

@@ -18,7 +18,9 @@ struct MapBuilderOptions {
   double keyframe_distance = 0.10;  ///< a new keyframe after this way (m)
   double keyframe_rotation = 0.09;  ///< or this turn (rad)
   bool flat = true;              ///< the robot stands level at height 0; else on the heights, rolls and pitches of the
-                                 ///< given poses, which count as exact
+                                 ///< given poses; either up to
+  double sigma_tilt = 0.005;     ///< prior of its roll and pitch about these (rad); 0: exact
+  double sigma_height = 0.003;   ///< prior of its height about these (m); 0: exact
   double sigma_px = 1.0;         ///< first guess at the standard deviation of a feature's position; residuals tell it
   double sigma_position = 0.02;  ///< prior of the given robot positions (m)
   double sigma_heading = 0.01;   ///< prior of the given robot headings (rad)

@@ -27,12 +27,13 @@ MatchSetting matchSettingFromName(std::string_view name);
 struct RelocalizerOptions {
   MatchingOptions matching{};
   MatchSetting setting = MatchSetting::scsd;
-  int retrieved = 3;             ///< reference keyframes per image (the paper's 3)
-  int ranked = 20;               ///< most alike keyframes, from which those are chosen that match best; none more than
-                                 ///< `retrieved`: these are the most alike
-  double reliable_depth = 10;    ///< landmarks farther from the reference than this (m) give 2D-2D matches
-  double max_point_sigma = 0.5;  ///< and so do landmarks less certain than this (m, largest axis); both may be wider
-                                 ///< than the paper's 5 m, since each point carries its covariance
+  int retrieved = 3;  ///< reference keyframes per image (the paper's 3)
+  int ranked = 20;    ///< most alike keyframes, from which those are chosen that match best; none more than
+                      ///< `retrieved`: these are the most alike
+  /// Landmarks farther from the reference than this (m; the paper: 5) give 2D-2D matches. Far and uncertain ones are of
+  /// use, since each carries its covariance; as 2D-2D matches they would be taken to be as near as the others.
+  double reliable_depth = 100;
+  double max_point_sigma = 10;  ///< and so do landmarks less certain than this (m, largest axis)
   /// Floors and tyres give a little, and place recognition may name places where the robot is not.
   EstimatorOptions estimator{.plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .in_sight_log_odds = -3};
   /// Whether samples are drawn as the map's keyframes say (chosenSolution), not as estimator.solver does.
