@@ -136,6 +136,10 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   MapBuilderOptions& options = arguments.options;
   verb.add_option("--features", arguments.features, "orb, sift, akaze, or the .onnx file of a network")
       ->capture_default_str();
+  verb.add_option(
+      "--places", options.place_network.file,
+      ".onnx file of a network that describes whole images for place recognition; without it their features "
+      "do");
   verb.add_option("--max-features", options.features.max_features, "strongest features kept of an image")
       ->capture_default_str();
   verb.add_option("--mask-rows-from-top", options.features.mask_rows_from_top,

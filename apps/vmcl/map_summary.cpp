@@ -101,8 +101,10 @@ void printSummary(const MapBuildReport& report, const KeyframeMap& map) {
 void printInfo(const std::filesystem::path& file, const KeyframeMap& map) {
   const auto bytes = std::filesystem::file_size(file);
   std::cout << file.string() << ": " << map.keyframes.size() << " keyframes, " << map.landmarks.size() << " landmarks, "
-            << vmcl::nameOf(map.feature_options.kind) << " features, " << map.vocabulary.words().rows()
-            << " words of place recognition\n"
+            << vmcl::nameOf(map.feature_options.kind) << " features, places described by "
+            << (map.place_network.file.empty() ? std::to_string(map.vocabulary.words().rows()) + " words"
+                                               : map.place_network.file)
+            << '\n'
             << bytes << " bytes, " << bytes / std::max<std::size_t>(1, map.keyframes.size()) << " a keyframe\n"
             << std::fixed << std::setprecision(2);
   Eigen::AlignedBox2d area;

@@ -28,6 +28,11 @@ class MapTest(CommandTest):
         self.assertIn('keyframes', printed)
         self.assertIn("camera 'camera': 640x480", self.succeed('map', '--info', 'out.vmap'))
 
+    def test_network_of_places_that_is_none(self):
+        self.assert_refused([*self.map_of(LOG), '--places', 'absent.onnx'], 'absent.onnx')
+        self.write('text.onnx', 'no network')
+        self.assert_refused([*self.map_of(LOG), '--places', 'text.onnx'], 'text.onnx')
+
     def test_same_input_same_bytes(self):
         for name in ('once', 'again'):
             self.succeed('map', SIMPLE_MAP, '-o', f'{name}.vmap', '--max-features', 100)

@@ -65,6 +65,7 @@ TEST(KeyframeMap, NamesTheBrokenEntry) {
       {"place descriptors", [](KeyframeMap& map) { map.place_descriptors.conservativeResize(512, 2); }},
       {"place descriptors", [](KeyframeMap& map) { map.place_descriptors.resize(511, 3); }},
       {"place descriptors", [](KeyframeMap& map) { map.place_descriptors(5, 1) = std::nanf(""); }},
+      {"place network", [](KeyframeMap& map) { map.place_network.file = "beside_a_vocabulary.onnx"; }},
   };
   for (const Damage& damage : damages) {
     KeyframeMap map = smallMap();

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "scratch_directory.h"
 #include "synthetic_room.h"
+#include "tiny_network.h"
 #include "vmcl/mapping/map_file.h"
+#include "vmcl/vision/place_network.h"
 
 namespace vmcl {
 namespace {
@@ -85,6 +88,36 @@ TEST(MapBuilder, SurvivesABlankImageAmongOthers) {
   EXPECT_EQ(report.keyframes, std::ssize(recording.drive));
   EXPECT_EQ(map.keyframes.back().features.size(), 0);
   EXPECT_GT(report.landmarks, 10);
+}
+
+TEST(MapBuilder, ANetworkDescribesPlaces) {
+  const ScratchDirectory scratch;
+  MapBuilderOptions options;
+  options.features.kind = FeatureKind::orb;
+  options.place_network.file = TinyNetwork(1, 48, 64, 16).writtenTo(scratch.path() / "places.onnx");
+  MapBuilder builder({testing::forwardCamera()}, options);
+  Random random(3);
+  Image image{640, 480, std::vector<uint8_t>(640 * 480)};
+  std::vector<Image> images;
+  for (int i = 0; i < 3; ++i) {
+    for (uint8_t& pixel : image.pixels) pixel = static_cast<uint8_t>(random.below(256));
+    images.push_back(image);
+    EXPECT_TRUE(builder.add(i, 0, toRigid3({0.2 * i, 0, 0}), image.view()));
+    EXPECT_FALSE(builder.add(i, 0, toRigid3({0.2 * i, 0, 0}), image.view())) << "no keyframe, no place";
+  }
+  FeatureSet features;
+  features.descriptors.resize(0, 32);
+  EXPECT_THROW(builder.add(9, 0, toRigid3({9, 0, 0}), features), std::invalid_argument) << "no image";
+  const KeyframeMap map = builder.build().first;
+  FeatureModel model = map.place_network;
+  EXPECT_NE(model.crc32, 0u);
+  EXPECT_TRUE(map.vocabulary.empty());
+  ASSERT_EQ(map.place_descriptors.cols(), 3);
+  const PlaceNetwork network(model);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(map.place_descriptors.col(i), network.describe(images[static_cast<std::size_t>(i)].view(), {}));
+  options.place_network.file = (scratch.path() / "absent.onnx").string();
+  EXPECT_THROW(MapBuilder({testing::forwardCamera()}, options), std::runtime_error);
 }
 
 TEST(MapBuilder, SessionsAreMergedByWhatTheySee) {

@@ -75,6 +75,7 @@ TEST_F(MapFile, KeepsEveryValue) {
 // The files were written by the programs that wrote those versions.
 TEST_F(MapFile, OpensTheVersionsBefore) {
   KeyframeMap expected = smallMap();
+  EXPECT_EQ(encodeMap(loadMap(std::filesystem::path(VMCL_TEST_DATA_DIR) / "version4.vmap")), encodeMap(expected));
   for (Keyframe& keyframe : expected.keyframes) keyframe.solution = Solver::automatic;
   EXPECT_EQ(encodeMap(loadMap(std::filesystem::path(VMCL_TEST_DATA_DIR) / "version3.vmap")), encodeMap(expected));
   expected.cameras[1].mask = {};
@@ -85,13 +86,16 @@ TEST_F(MapFile, OpensTheVersionsBefore) {
   EXPECT_EQ(encodeMap(loaded), encodeMap(expected));
 }
 
-TEST_F(MapFile, TakesTheNetworkBesideTheMap) {
+TEST_F(MapFile, TakesTheNetworksBesideTheMap) {
   KeyframeMap map;
   map.feature_options.choose("elsewhere/net.onnx");
   map.feature_options.model.crc32 = 7;
+  map.place_network = {"elsewhere/places.onnx", 8};
   saveMap(folder_ / "a.vmap", map);
   EXPECT_EQ(loadMap(folder_ / "a.vmap").feature_options.model, (FeatureModel{"elsewhere/net.onnx", 7}));
-  std::ofstream(folder_ / "net.onnx") << "a network";
+  EXPECT_EQ(loadMap(folder_ / "a.vmap").place_network, (FeatureModel{"elsewhere/places.onnx", 8}));
+  for (const char* name : {"net.onnx", "places.onnx"}) std::ofstream(folder_ / name) << "a network";
+  EXPECT_EQ(loadMap(folder_ / "a.vmap").place_network, (FeatureModel{(folder_ / "places.onnx").string(), 8}));
   EXPECT_EQ(loadMap(folder_ / "a.vmap").feature_options.model, (FeatureModel{(folder_ / "net.onnx").string(), 7}));
 }
 

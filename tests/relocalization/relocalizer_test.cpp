@@ -8,7 +8,10 @@
 #include <map>
 #include <set>
 
+#include "scratch_directory.h"
 #include "synthetic_room.h"
+#include "tiny_network.h"
+#include "vmcl/vision/place_network.h"
 
 namespace vmcl {
 namespace {
@@ -67,6 +70,28 @@ TEST_F(RelocalizerTest, FindsTheRobotByARig) {
   EXPECT_GT(matches_of_camera[1], 50);
   ASSERT_TRUE(result.estimate.found());
   expectNear(result.estimate.modes[0].robot_in_map, truth_);
+}
+
+TEST_F(RelocalizerTest, FindsTheRobotByANetworkOfPlaces) {
+  const ScratchDirectory scratch;
+  KeyframeMap map = *map_;
+  map.vocabulary = {};
+  map.place_network.file = TinyNetwork(1, 48, 64, 8).writtenTo(scratch.path() / "places.onnx");
+  const PlaceNetwork network(map.place_network);
+  map.place_descriptors.resize(network.size(), map_->place_descriptors.cols());
+  for (std::size_t i = 0; i < map.keyframes.size(); ++i)
+    map.place_descriptors.col(static_cast<Eigen::Index>(i)) =
+        network.describe(decompressImage(map.keyframes[i].dense.image).view(), {});
+  const PlanarPose truth = planarPart(map.keyframes[5].map_from_robot);
+  const Image image = room_.look(truth, SyntheticRoom::mount());
+  const auto result =
+      Relocalizer(std::make_shared<const KeyframeMap>(map), {.retrieved = 1, .ranked = 0}).relocalize({{query(image)}});
+  EXPECT_EQ(result.keyframes, std::vector{5}) << "the same view";
+  ASSERT_TRUE(result.estimate.found());
+  expectNear(result.estimate.modes[0].robot_in_map, truth);
+  map.place_descriptors.conservativeResize(network.size() - 1, Eigen::NoChange);
+  EXPECT_THAT([&] { Relocalizer(std::make_shared<const KeyframeMap>(map), {}); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("places.onnx")));
 }
 
 TEST_F(RelocalizerTest, StatesAWholeProblem) {

@@ -103,7 +103,10 @@ void KeyframeMap::check() const {
   const Eigen::MatrixXf& words = vocabulary.words();
   require(vocabulary.empty() || vocabulary.kind() == feature_options.kind, "vocabulary: words of another kind");
   require(place_descriptors.cols() == std::ssize(keyframes), "place descriptors: not one a keyframe");
-  require(place_descriptors.rows() == words.size(), "place descriptors: other size than the vocabulary's");
+  if (place_network.file.empty())
+    require(place_descriptors.rows() == words.size(), "place descriptors: other size than the vocabulary's");
+  else
+    require(vocabulary.empty(), "place network: there is a vocabulary besides");
   require(place_descriptors.allFinite(), "place descriptors: a value is not finite");
 }
 

@@ -43,7 +43,14 @@ Eigen::Matrix3d poseCovariance(const Reconstruction& scene, const MapBuilderOpti
   return sum / static_cast<double>(scene.keyframes.size());
 }
 
-void addPlaces(KeyframeMap& map, const MapBuilderOptions& options) {
+void addPlaces(KeyframeMap& map, const Reconstruction& scene, const MapBuilderOptions& options) {
+  map.place_network = options.place_network;
+  if (!scene.places.empty()) {
+    map.place_descriptors.resize(scene.places.front().size(), std::ssize(scene.places));
+    for (Eigen::Index i = 0; i < map.place_descriptors.cols(); ++i)
+      map.place_descriptors.col(i) = scene.places[static_cast<std::size_t>(i)];
+    return;
+  }
   std::vector<const FeatureSet*> sets;
   for (const Keyframe& keyframe : map.keyframes) sets.push_back(&keyframe.features);
   map.vocabulary = VladVocabulary::train(sets, options.words, options.seed);
@@ -83,7 +90,7 @@ KeyframeMap assembleMap(const Reconstruction& scene, ReconstructionResult& resul
   correctPixels(map, scene);
   addLandmarks(map, scene, result);
   map.pose_covariance = poseCovariance(scene, options);
-  addPlaces(map, options);
+  addPlaces(map, scene, options);
   map.check();
   return map;
 }

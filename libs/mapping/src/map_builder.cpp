@@ -10,6 +10,7 @@
 #include "feature_check.h"
 #include "map_assembly.h"
 #include "reconstruct.h"
+#include "vmcl/vision/place_network.h"
 
 namespace vmcl {
 namespace {
@@ -66,6 +67,8 @@ struct MapBuilder::State {
   std::vector<MapCamera> cameras;
   std::vector<Keyframe> keyframes;
   std::vector<std::vector<float>> depths;  // as in Reconstruction
+  std::optional<PlaceNetwork> place_network;
+  std::vector<Eigen::VectorXf> places;  // as in Reconstruction
   int session = 0;
   int frames = 0;
 
@@ -103,6 +106,8 @@ MapBuilder::MapBuilder(std::vector<MapCamera> cameras, const MapBuilderOptions& 
     : state_(std::make_unique<State>()) {
   options.check();
   state_->options = options;
+  if (FeatureModel& network = state_->options.place_network; !network.file.empty())
+    state_->place_network.emplace(network);
   for (MapCamera& camera : cameras) addCamera(std::move(camera));
 }
 
@@ -141,6 +146,7 @@ bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, cons
   if (!depth.empty())
     for (const Eigen::Vector2f& pixel : features.pixels)
       depths.push_back(depthAt(depth, taken_by.calibration.distort(pixel.cast<double>())));
+  if (state_->place_network) state_->places.push_back(state_->place_network->describe(image, taken_by.imageMask()));
   state_->keep(time, camera, *pose, std::move(features), std::move(depths));
   if (state_->options.dense) state_->keyframes.back().dense = {compressImage(image), sparserDepth(depth)};
   return true;
@@ -149,6 +155,7 @@ bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, cons
 bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features,
                      std::vector<float> depths) {
   const std::string name = "image at " + std::to_string(time);
+  if (state_->place_network) throw std::invalid_argument(name + ": no image for " + state_->options.place_network.file);
   checkFeatures(features, state_->options.features.kind, name);
   if (!depths.empty() && depths.size() != features.pixels.size())
     throw std::invalid_argument(name + ": not one depth a feature");
@@ -172,6 +179,7 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   scene.keyframes = std::exchange(state_->keyframes, {});
   scene.stance.assign(scene.keyframes.size(), Eigen::Vector3d::Zero());
   scene.depths = std::exchange(state_->depths, {});
+  scene.places = std::exchange(state_->places, {});
   for (const Keyframe& keyframe : scene.keyframes) {
     scene.map_from_robot.push_back(planarPart(keyframe.map_from_robot));
     scene.level_from_robot.push_back(toRigid3(scene.map_from_robot.back()).inverse() * keyframe.map_from_robot);

@@ -23,8 +23,9 @@
 //   network     file (count, bytes), its CRC-32 u32; no bytes and 0 where features are not those of a network
 //   dense       each keyframe: image (count, bytes), depths (count, u16[]); counts 0 in a map that is not dense
 //   solutions   u8 a keyframe: 0 both, 1 1P1DP, 2 2DP
-// Version 3 had no solutions; version 2 neither them nor masks nor sources of depth nor sessions nor networks nor dense
-// data.
+//   network     that describes places: file (count, bytes), its CRC-32 u32; no bytes and 0 where the vocabulary does
+// Version 4 had no network of places; version 3 no solutions either; version 2 neither them nor masks nor sources of
+// depth nor sessions nor networks nor dense data.
 
 namespace vmcl {
 namespace {
@@ -192,6 +193,18 @@ Landmark getLandmark(ByteReader& in) {
   return landmark;
 }
 
+void putNetwork(ByteWriter& out, const FeatureModel& network) {
+  putCounted(out, network.file);
+  out.put(network.crc32);
+}
+
+FeatureModel getNetwork(ByteReader& in) {
+  FeatureModel network;
+  getCounted(in, network.file);
+  network.crc32 = in.get<uint32_t>();
+  return network;
+}
+
 std::string encodeContent(const KeyframeMap& map) {
   ByteWriter out;
   out.put(static_cast<uint8_t>(map.feature_options.kind));
@@ -206,13 +219,13 @@ std::string encodeContent(const KeyframeMap& map) {
   putCovariance(out, map.pose_covariance);
   putMatrix(out, map.vocabulary.words());
   putMatrix(out, map.place_descriptors);
-  putCounted(out, map.feature_options.model.file);
-  out.put(map.feature_options.model.crc32);
+  putNetwork(out, map.feature_options.model);
   for (const Keyframe& keyframe : map.keyframes) {
     putCounted(out, keyframe.dense.image);
     putCounted(out, keyframe.dense.depth);
   }
   for (const Keyframe& keyframe : map.keyframes) out.put(static_cast<uint8_t>(keyframe.solution));
+  putNetwork(out, map.place_network);
   return out.take();
 }
 
@@ -234,8 +247,7 @@ KeyframeMap decodeContent(std::string_view content, uint32_t version) {
     map.vocabulary = VladVocabulary(map.feature_options.kind, std::move(words));
   map.place_descriptors = getMatrix(in);
   if (version > 2) {
-    getCounted(in, map.feature_options.model.file);
-    map.feature_options.model.crc32 = in.get<uint32_t>();
+    map.feature_options.model = getNetwork(in);
     for (Keyframe& keyframe : map.keyframes) {
       getCounted(in, keyframe.dense.image);
       getCounted(in, keyframe.dense.depth);
@@ -243,6 +255,7 @@ KeyframeMap decodeContent(std::string_view content, uint32_t version) {
   }
   if (version > 3)
     for (Keyframe& keyframe : map.keyframes) keyframe.solution = static_cast<Solver>(in.get<uint8_t>());
+  if (version > 4) map.place_network = getNetwork(in);
   if (!in.remaining().empty()) throw std::runtime_error("content is followed by bytes that do not belong to it");
   map.check();
   return map;

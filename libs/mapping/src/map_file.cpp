@@ -23,9 +23,10 @@ KeyframeMap loadMap(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) throw std::runtime_error("cannot be read");
     KeyframeMap map = decodeMap(bytes);
-    std::string& model = map.feature_options.model.file;
-    const std::filesystem::path beside = file.parent_path() / std::filesystem::path(model).filename();
-    if (!model.empty() && std::filesystem::exists(beside)) model = beside.string();
+    for (std::string* network : {&map.feature_options.model.file, &map.place_network.file}) {
+      const std::filesystem::path beside = file.parent_path() / std::filesystem::path(*network).filename();
+      if (!network->empty() && std::filesystem::exists(beside)) *network = beside.string();
+    }
     return map;
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());

@@ -48,6 +48,7 @@ struct Reconstruction {
   std::vector<Keyframe> keyframes;            ///< with the poses as given
   std::vector<std::vector<float>> depths;     ///< per keyframe: of each feature along the axis (m), 0 where it was not
                                               ///< measured; empty where no feature's was
+  std::vector<Eigen::VectorXf> places;        ///< per keyframe: what a network makes of the image; empty without one
   std::vector<PlanarPose> map_from_robot;     ///< per keyframe
   std::vector<Eigen::Vector3d> stance;        ///< per keyframe: roll and pitch (rad) and height (m) off the level
   std::vector<Rigid3> level_from_robot;       ///< per keyframe: height, roll and pitch as given, over pose and stance

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "place_ranking.h"
 #include "reference_depth.h"
 #include "vmcl/relocalization/solution_choice.h"
+#include "vmcl/vision/place_network.h"
 
 namespace vmcl {
 namespace {
@@ -34,7 +36,7 @@ class Stopwatch {
 
 std::shared_ptr<const KeyframeMap> checked(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options) {
   options.check();
-  if (map == nullptr || map->keyframes.empty() || map->vocabulary.empty())
+  if (map == nullptr || map->keyframes.empty() || map->place_descriptors.size() == 0)
     throw std::invalid_argument("the map is empty");
   map->check();
   if (options.setting != MatchSetting::scsd && !map->isDense())
@@ -88,10 +90,17 @@ struct Relocalizer::State {
   std::shared_ptr<const KeyframeMap> map;
   RelocalizerOptions options;
   FeatureExtractor extractor;
+  std::optional<PlaceNetwork> place_network;
   std::vector<bool> is_certain;  ///< landmarks whose largest sigma is small enough
 
   State(std::shared_ptr<const KeyframeMap> used_map, const RelocalizerOptions& used_options)
       : map(checked(std::move(used_map), used_options)), options(used_options), extractor(map->feature_options) {
+    if (FeatureModel network = map->place_network; !network.file.empty()) {
+      place_network.emplace(network);
+      if (place_network->size() != map->place_descriptors.rows())
+        throw std::runtime_error(network.file + ": describes places by " + std::to_string(place_network->size()) +
+                                 " numbers, the map by " + std::to_string(map->place_descriptors.rows()));
+    }
     for (const Landmark& landmark : map->landmarks)
       is_certain.push_back(largestSigma(landmark.covariance) <= options.max_point_sigma);
   }
@@ -161,8 +170,10 @@ struct Relocalizer::State {
     const FeatureSet query = extractor.extract(image.image, image.calibration, image.mask);
     stopwatch.addTo(result.times.features);
     if (query.size() == 0) return;
+    const Eigen::VectorXf place =
+        place_network ? place_network->describe(image.image, image.mask) : map->vocabulary.describe(query);
     const std::vector<RetrievedPlace> places =
-        retrieve(map->place_descriptors, map->vocabulary.describe(query), std::max(options.retrieved, options.ranked));
+        retrieve(map->place_descriptors, place, std::max(options.retrieved, options.ranked));
     stopwatch.addTo(result.times.retrieval);
     const auto dense_matcher = options.setting == MatchSetting::scsd ? nullptr : gridMatcher(image.image, image.mask);
     std::vector<MatchCandidate> all;

@@ -20,6 +20,9 @@ class Network {
   /// Size that the network wants its images in: one of its own, or any, up to what a multiple of 8 leaves over.
   cv::Size inputSize(cv::Size image) const;
 
+  /// Whether its images have one channel.
+  bool isGrey() const { return channels_ == 1; }
+
   /// Runs on images of size inputSize(), grey or, if the network takes colours, BGR. Throws std::runtime_error naming
   /// the file when that fails or an output is not finite.
   std::vector<cv::Mat> run(std::span<const cv::Mat> images) const;

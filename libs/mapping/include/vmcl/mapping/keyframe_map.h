@@ -63,7 +63,8 @@ struct KeyframeMap {
   /// How far the keyframes' poses (x, y, phi) stand from those that they were made from: covariance in the robot frame
   /// (m, rad). Whichever of the two errs, a pose found in the map shares it, however many landmarks it rests on.
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
-  VladVocabulary vocabulary;
+  VladVocabulary vocabulary;          ///< that describes places; none where a network does
+  FeatureModel place_network;         ///< that describes places; no file where the vocabulary does
   Eigen::MatrixXf place_descriptors;  ///< one column a keyframe
 
   /// Whether all keyframes can be matched densely.

@@ -29,6 +29,7 @@ struct MapBuilderOptions {
   double sigma_focal = 0.03;       ///< prior of the given focal lengths, relative; 0: exact
   double sigma_radial = 0.1;       ///< prior of the given radial distortion k1 and k2; 0: exact
   int words = 64;                  ///< vocabulary of place recognition
+  FeatureModel place_network{};    ///< that describes places instead, if there is a file
   bool dense = false;              ///< keep the images, so that queries can be matched all over them
   uint64_t seed = 1;
 
@@ -73,7 +74,8 @@ using BuildProgress = std::function<void(std::string_view stage, double share)>;
 /// of measured depths, landmark covariances, vocabulary and place descriptors. Deterministic.
 class MapBuilder {
  public:
-  /// Throws std::invalid_argument for bad options or a bad camera.
+  /// Throws std::invalid_argument for bad options or a bad camera, std::runtime_error naming a network's file that
+  /// cannot be used.
   MapBuilder(std::vector<MapCamera> cameras, const MapBuilderOptions& options);
   ~MapBuilder();
   MapBuilder(MapBuilder&&) noexcept;
@@ -91,7 +93,8 @@ class MapBuilder {
   bool add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image, const DepthImage& depth = {});
 
   /// The same with features found elsewhere, and the measured depth of each (m, 0: none) or none at all. Throws
-  /// std::invalid_argument for features of another kind and another number of depths, too.
+  /// std::invalid_argument for features of another kind, another number of depths, and where a network is to see the
+  /// image, too.
   bool add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features, std::vector<float> depths = {});
 
   int keyframeCount() const;

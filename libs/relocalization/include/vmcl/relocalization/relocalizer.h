@@ -77,14 +77,15 @@ PoseEstimate estimatePose(const RelocalizationResult& matched, const KeyframeMap
 class Relocalizer {
  public:
   /// Throws std::invalid_argument for bad options, an empty map, or one that is not dense though the setting is;
-  /// std::runtime_error naming the map's network of features when it cannot be used.
+  /// std::runtime_error naming the map's network of features or places when it cannot be used.
   Relocalizer(std::shared_ptr<const KeyframeMap> map, const RelocalizerOptions& options);
   ~Relocalizer();
 
   const KeyframeMap& map() const;
   const RelocalizerOptions& options() const;
 
-  /// Features, retrieval and matching only; `estimate` stays empty. Throws std::invalid_argument for a malformed image.
+  /// Features, retrieval and matching only; `estimate` stays empty. Throws std::invalid_argument for a malformed
+  /// image, std::runtime_error naming a network that fails.
   RelocalizationResult match(std::span<const QueryImage> images) const;
 
   /// All of it.

@@ -43,7 +43,7 @@ struct FeatureSet {
   int size() const { return static_cast<int>(pixels.size()); }
 };
 
-/// The network that finds and describes features: an ONNX file as doc/features.md has it.
+/// A network that finds and describes features, or describes whole images: an ONNX file as doc/features.md has it.
 struct FeatureModel {
   std::string file;
   uint32_t crc32 = 0;  ///< of the file; 0: not known yet
