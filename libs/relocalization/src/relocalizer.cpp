@@ -16,6 +16,7 @@
 #include "place_ranking.h"
 #include "reference_depth.h"
 #include "vmcl/relocalization/solution_choice.h"
+#include "vmcl/vision/place_index.h"
 #include "vmcl/vision/place_network.h"
 
 namespace vmcl {
@@ -91,7 +92,8 @@ struct Relocalizer::State {
   RelocalizerOptions options;
   FeatureExtractor extractor;
   std::optional<PlaceNetwork> place_network;
-  std::vector<bool> is_certain;  ///< landmarks whose largest sigma is small enough
+  std::optional<PlaceIndex> place_index;  ///< where there is no network, whose descriptors are shorter
+  std::vector<bool> is_certain;           ///< landmarks whose largest sigma is small enough
 
   State(std::shared_ptr<const KeyframeMap> used_map, const RelocalizerOptions& used_options)
       : map(checked(std::move(used_map), used_options)), options(used_options), extractor(map->feature_options) {
@@ -100,6 +102,8 @@ struct Relocalizer::State {
       if (place_network->size() != map->place_descriptors.rows())
         throw std::runtime_error(network.file + ": describes places by " + std::to_string(place_network->size()) +
                                  " numbers, the map by " + std::to_string(map->place_descriptors.rows()));
+    } else {
+      place_index.emplace(map->place_descriptors);
     }
     for (const Landmark& landmark : map->landmarks)
       is_certain.push_back(largestSigma(landmark.covariance) <= options.max_point_sigma);
@@ -172,8 +176,9 @@ struct Relocalizer::State {
     if (query.size() == 0) return;
     const Eigen::VectorXf place =
         place_network ? place_network->describe(image.image, image.mask) : map->vocabulary.describe(query);
+    const int count = std::max(options.retrieved, options.ranked);
     const std::vector<RetrievedPlace> places =
-        retrieve(map->place_descriptors, place, std::max(options.retrieved, options.ranked));
+        place_network ? retrieve(map->place_descriptors, place, count) : place_index->retrieve(place, count);
     stopwatch.addTo(result.times.retrieval);
     const auto dense_matcher = options.setting == MatchSetting::scsd ? nullptr : gridMatcher(image.image, image.mask);
     std::vector<MatchCandidate> all;
