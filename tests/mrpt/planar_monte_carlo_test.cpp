@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <mrpt/random.h>
 
 #include "filter_setup.h"
 #include "vmcl/mrpt/pose_cluster.h"
@@ -97,23 +98,59 @@ TEST(PlanarMonteCarlo, StaysWhereItIsInAMapOfNoKnownExtent) {
   EXPECT_EQ(numbersOf(filter), before);
 }
 
-TEST(PlanarMonteCarlo, SameSeedSameParticles) {
-  FilterSetup setup;
-  setup.filter.adaptiveSampleSize = true;
-  setup.filter.resamplingMethod = CParticleFilter::prMultinomial;
-  setup.kld.KLD_maxSampleSize = 2000;
-  setup.log_likelihood = [](const PlanarPose& p) { return -p.x * p.x; };
-  const auto run = [&](uint64_t seed) {
-    setup.options.seed = seed;
-    auto filter = setup.make(box, 1000);
+/// Draws in every way: motion noise, sample size, injection, resampling.
+struct DrawingSetup : FilterSetup {
+  DrawingSetup() {
+    filter.adaptiveSampleSize = true;
+    filter.resamplingMethod = CParticleFilter::prMultinomial;
+    kld.KLD_maxSampleSize = 2000;
+    log_likelihood = [](const PlanarPose& p) { return -p.x * p.x; };
+  }
+
+  PlanarMonteCarlo make(uint64_t seed) {
+    options.seed = seed;
+    return FilterSetup::make(box, 1000);
+  }
+
+  static void drive(PlanarMonteCarlo& filter) {
     const auto frame = someObservation();
     const auto action = movement(0.1, 0.1);
     const PoseMode somewhere = mode({1, 1, 1}, 0.1);
-    for (int i = 0; i < 5; ++i) filter.update(&action, &frame, {&somewhere, 1});
+    filter.update(&action, &frame, {&somewhere, 1});
+  }
+
+  std::vector<double> run(uint64_t seed) {
+    auto filter = make(seed);
+    for (int i = 0; i < 5; ++i) drive(filter);
     return numbersOf(filter);
-  };
-  EXPECT_EQ(run(1), run(1));
-  EXPECT_NE(run(1), run(2));
+  }
+};
+
+TEST(PlanarMonteCarlo, SameSeedSameParticles) {
+  DrawingSetup setup;
+  EXPECT_EQ(setup.run(1), setup.run(1));
+  EXPECT_NE(setup.run(1), setup.run(2));
+}
+
+TEST(PlanarMonteCarlo, FiltersThatTakeTurnsAreAsIfAlone) {
+  DrawingSetup setup;
+  auto first = setup.make(1), second = setup.make(2);
+  for (int i = 0; i < 5; ++i) {
+    setup.drive(first);
+    setup.drive(second);
+  }
+  EXPECT_EQ(numbersOf(first), setup.run(1));
+  EXPECT_EQ(numbersOf(second), setup.run(2));
+}
+
+TEST(PlanarMonteCarlo, LeavesTheGeneratorOfTheProcessAsItWas) {
+  DrawingSetup setup;
+  auto& generator = mrpt::random::getRandomGenerator();
+  generator.randomize(5);
+  const auto expected = generator.drawUniform64bit();
+  generator.randomize(5);
+  setup.run(1);
+  EXPECT_EQ(generator.drawUniform64bit(), expected);
 }
 
 TEST(PlanarMonteCarlo, RefusesALikelihoodThatIsNotFinite) {

@@ -3,7 +3,6 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/random.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mrpt_draws.h"
 #include "vmcl/mrpt/kld_sample_size.h"
 #include "vmcl/mrpt/mode_mixture.h"
 #include "vmcl/mrpt/movement.h"
@@ -35,11 +35,6 @@ bool allFinite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// MRPT's generator as new: randomize() alone would keep the spare half of its last pair of normal numbers.
-void seedMrpt(uint64_t seed) {
-  mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(static_cast<uint32_t>(seed ^ (seed >> 32)));
-}
-
 }  // namespace
 
 PlanarMonteCarlo::PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, const KldOptions& kld_options,
@@ -61,7 +56,6 @@ PlanarMonteCarlo::PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, co
   clearParticles();  // MRPT begins with one
   options.metricMap = map_;
   options.KLD_params = kld_options;
-  seedMrpt(monte_carlo_options.seed);
 }
 
 void PlanarMonteCarlo::setMap(mrpt::maps::CMultiMetricMap::ConstPtr map, const PoseRegion& anywhere) {
@@ -147,6 +141,7 @@ void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
     const PlanarPose mean{movement->mean.x(), movement->mean.y(), movement->mean.phi()};
     for (auto& particle : m_particles) particle.d = mrptPose(planarPose(particle.d) * model->draw(mean, random_));
   } else {
+    const MrptDraws draws(random_);
     prediction_and_update_pfStandardProposal(&action, nullptr, filter_options_);
   }
   for (const auto& particle : m_particles)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mrpt_draws.h"
 #include "vmcl/mrpt/kld_sample_size.h"
 #include "vmcl/mrpt/planar_monte_carlo.h"
 
@@ -23,6 +24,12 @@ void PlanarMonteCarlo::normalize() {
 void PlanarMonteCarlo::equalizeWeights() {
   const auto is_first = [&](const auto& particle) { return particle.log_w == m_particles.front().log_w; };
   if (std::all_of(m_particles.begin(), m_particles.end(), is_first)) return;
+  resampleAll();
+}
+
+/// The count is given because performResampling equalizes the weights of that many particles, of none by default.
+void PlanarMonteCarlo::resampleAll() {
+  const MrptDraws draws(random_);
   performResampling(filter_options_, m_particles.size());
   normalize();
 }
@@ -37,9 +44,7 @@ void PlanarMonteCarlo::resample() {
     return;
   }
   if (filter_options_.adaptiveSampleSize || effective_share_ >= filter_options_.BETA) return;
-  // The count is given because performResampling equalizes the weights of that many particles, of none by default.
-  performResampling(filter_options_, m_particles.size());
-  normalize();
+  resampleAll();
 }
 
 /// Draws particles until there are as many as the places where they lie ask for.

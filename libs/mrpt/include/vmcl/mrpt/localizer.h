@@ -39,8 +39,8 @@ struct LocalizationFrame {
 ///     vmcl::PoseWithCovariance pose = localizer.estimate();       // good while health().status is tracking
 ///
 /// Nothing that comes in makes it throw once it is made, but a bad map or start: broken or repeated observations
-/// and movements are left out and named by takeProblems(). Not thread safe, and one Localizer of a process runs at a
-/// time: they share MRPT's random generator.
+/// and movements are left out and named by takeProblems(). Not thread safe; those of one process may take turns, but
+/// not run at the same time, as MRPT's random generator is lent to one of them.
 class Localizer {
  public:
   /// Without map and start. Throws std::invalid_argument naming the bad option.

@@ -43,7 +43,8 @@ struct PlanarMonteCarloOptions {
 ///   that explains it best: an image that tells of no place, in front of a blank wall, tells nothing of being lost,
 /// - particles injected where an image says the robot may be,
 /// - weights that are equal after every resampling,
-/// - one seed for everything random.
+/// - one seed for everything random. MRPT's motion models and resampling draw from its generator of the process, which
+///   is lent to them seeded and put back; so filters of one process may take turns, but not run at the same time.
 ///
 /// Injection is a mixture proposal. With the predicted particles' density p, the chance e of kidnapping, the uniform
 /// density u of the map, and the image's modes m, the belief before the image is b = (1 - e) p + e u; a share a of the
@@ -62,8 +63,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   /// Throws std::invalid_argument naming the key that is out of range or asks for what is not supported.
   static void check(const ParticleFilterOptions& options);
 
-  /// `anywhere`: where a lost robot may be. Seeds MRPT's process-wide generator, which the motion models draw from: at
-  /// most one filter of a process runs at a time. Throws std::invalid_argument naming the bad option.
+  /// `anywhere`: where a lost robot may be. Throws std::invalid_argument naming the bad option.
   PlanarMonteCarlo(mrpt::maps::CMultiMetricMap::ConstPtr map, const KldOptions& kld_options,
                    const ParticleFilterOptions& filter_options, const PlanarMonteCarloOptions& monte_carlo_options,
                    const PoseRegion& anywhere);
@@ -105,6 +105,7 @@ class PlanarMonteCarlo : public mrpt::slam::CMonteCarloLocalization2D {
   PoseDensity density() const;
   void allowForAliasing(std::span<double> log_likelihoods) const;
   void resample();
+  void resampleAll();
   void resampleAdaptively();
   void equalizeWeights();
   void normalize();
