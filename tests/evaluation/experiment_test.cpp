@@ -43,7 +43,14 @@ TEST_F(ExperimentTest, IsReadWhole) {
   EXPECT_FALSE(experiment.starts[1].given);
   EXPECT_EQ(experiment.starts[2].name, "kidnapped-at-2s-for-1.5s");
   EXPECT_EQ(experiment.starts[2].kidnapping->skip, 1.5);
+  EXPECT_EQ(experiment.starts[2].after, 0);
   EXPECT_EQ(experiment.seeds, 3);
+}
+
+TEST_F(ExperimentTest, AKidnappedRobotMayStartLater) {
+  const Start start = readExperiment(write("good.yaml", with("skip: 1.5", "skip: 1.5, start: 0.5"))).starts[2];
+  EXPECT_TRUE(start.given);
+  EXPECT_EQ(start.after, 0.5);
 }
 
 TEST_F(ExperimentTest, OpenLorisSequence) {
@@ -73,6 +80,7 @@ TEST_F(ExperimentTest, NamesWhatIsWrong) {
       {"[laser, odometry]", "laser", "2: sensors is not a list"},
       {"starts: [given, global]", "starts: [gvien]", "5: starts knows given and global, not 'gvien'"},
       {"at: 2", "at: -2", "6: kidnappings[0].at is not positive"},
+      {"at: 2", "start: 2, at: 2", "6: kidnappings[0].start is not before the kidnapping"},
       {"at: 2, ", "", "6: kidnappings[0].at is missing"},
       {"name: few", "name: laser", "3: configurations has two of the name 'laser'"},
       {"name: few", "name: a/b", "4: configurations[1].name is to be made of letters, digits, _ and -, unlike 'a/b'"},

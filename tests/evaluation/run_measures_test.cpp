@@ -28,7 +28,9 @@ TEST(RunMeasures, OfAGoodRun) {
   EXPECT_NEAR(measures.nees.value(), 0, 1e-12);
   EXPECT_DOUBLE_EQ(measures.particles, 110);
   EXPECT_DOUBLE_EQ(measures.lifelong.correct_rate, 1);
+  EXPECT_TRUE(measures.found);
   EXPECT_FALSE(measures.recovery_time);
+  EXPECT_FALSE(measures.notice_time);
   EXPECT_FALSE(measures.kidnapped_distance);
 }
 
@@ -61,13 +63,28 @@ TEST(RunMeasures, FalseAcceptsAreFarOffAndStoodBy) {
   EXPECT_NEAR(measureRun(run, straightDrive()).false_accept_share, 2.0 / 20, 1e-12);
 }
 
-// Carried from x = 2 m to 5 m; sees again from 5 s on, wrongly until 7 s.
+TEST(RunMeasures, IsFoundWhenItConvergesInTimeAndIsRightAtTheEnd) {
+  std::vector<RunUpdate> strays = goodRun(), late;
+  strays.back().estimate.robot_in_map.y = 0.3;
+  EXPECT_FALSE(measureRun(strays, straightDrive()).found);
+  std::vector<StampedPose> still;
+  for (int i = 0; i <= 80; ++i) {
+    still.push_back({0.5 * i, toRigid3({})});
+    late.push_back({{0.5 * i, i >= 61, {}}, Eigen::Matrix3d::Identity(), 1});
+  }
+  EXPECT_NEAR(measureRun(late, Trajectory(still)).time_to_converge.value(), 30.5, 1e-9);
+  EXPECT_FALSE(measureRun(late, Trajectory(still)).found);
+}
+
+// Carried from x = 2 m to 5 m; sees again from 5 s on, wrongly until 7 s, and is lost by its own account at 6 s.
 TEST(RunMeasures, OfAKidnapping) {
   std::vector<RunUpdate> run = goodRun();
   run.erase(run.begin() + 4, run.begin() + 10);
   for (RunUpdate& update : run)
     if (update.estimate.time >= 5 && update.estimate.time < 7) update.estimate.robot_in_map.x -= 3;
+  for (RunUpdate& update : run) update.lost = update.estimate.time == 6 || update.estimate.time == 1;
   const RunMeasures measures = measureRun(run, straightDrive(), Kidnapped{2, 5});
+  EXPECT_NEAR(measures.notice_time.value(), 1, 1e-9);
   EXPECT_NEAR(measures.kidnapped_distance.value(), 3, 1e-9);
   EXPECT_NEAR(measures.recovery_time.value(), 2, 1e-9);
   EXPECT_EQ(measures.time_to_converge, 0);

@@ -116,12 +116,14 @@ std::vector<Sensors> readSensors(YamlMap& yaml) {
 
 Start kidnappedStart(YamlMap yaml) {
   const Kidnapping kidnapping{yaml.get<double>("at"), yaml.get<double>("skip")};
+  const double after = yaml.get<double>("start", 0);
   if (!(kidnapping.at > 0)) yaml.fail("at", "is not positive");
   if (!(kidnapping.skip > 0)) yaml.fail("skip", "is not positive");
+  if (!(after >= 0 && after < kidnapping.at)) yaml.fail("start", "is not before the kidnapping");
   yaml.finish();
   std::ostringstream name;
   name << "kidnapped-at-" << kidnapping.at << "s-for-" << kidnapping.skip << 's';
-  return {name.str(), true, kidnapping, 0};
+  return {name.str(), true, kidnapping, after};
 }
 
 Start startAfter(double seconds, const std::string& kind) {

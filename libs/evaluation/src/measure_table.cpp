@@ -41,6 +41,12 @@ Value recovered(const RunResult& run) {
   return asNumber(run.measures.recovery_time.has_value());
 }
 
+Value noticed(const RunResult& run) {
+  constexpr double soon = 2;  // s
+  if (!run.measures.kidnapped_distance) return std::nullopt;
+  return asNumber(run.measures.notice_time.value_or(2 * soon) <= soon);
+}
+
 }  // namespace
 
 const std::vector<Measure>& resultMeasures() {
@@ -50,6 +56,8 @@ const std::vector<Measure>& resultMeasures() {
        [](const RunResult& run) { return Value(asNumber(run.measures.time_to_converge.has_value())); }},
       {"time_to_converge_s", "time to converge", "s", 2, Summary::median, of(&M::time_to_converge)},
       {"distance_to_converge_m", "distance to converge", "m", 2, Summary::median, of(&M::distance_to_converge)},
+      {"found", "converge within 30 s, right at the end", "", 2, Summary::rate,
+       [](const RunResult& run) { return Value(asNumber(run.measures.found)); }},
       {"position_rmse_m", "position error, RMSE", "m", 3, Summary::median, of(&M::position_rmse)},
       {"position_median_m", "position error, median", "m", 3, Summary::median, of(&M::position_median)},
       {"heading_rmse_deg", "heading error, RMSE", "deg", 2, Summary::median, of(&M::heading_rmse, 1 / degree)},
@@ -65,6 +73,8 @@ const std::vector<Measure>& resultMeasures() {
        [](const RunResult& run) { return Value(asNumber(run.measures.false_accept_share > 0)); }},
       {"recovered", "kidnapped runs that recover", "", 2, Summary::rate, recovered},
       {"recovery_time_s", "time to recover", "s", 2, Summary::median, of(&M::recovery_time)},
+      {"noticed", "kidnapped runs that say lost within 2 s", "", 2, Summary::rate, noticed},
+      {"notice_time_s", "time to say lost", "s", 2, Summary::median, of(&M::notice_time)},
       {"kidnapped_distance_m", "carried off by", "m", 2, Summary::median, of(&M::kidnapped_distance)},
       {"correct_rate", "OpenLORIS CR (1 m, 30 deg)", "", 3, Summary::mean,
        [](const RunResult& run) { return Value(run.measures.lifelong.correct_rate); }},

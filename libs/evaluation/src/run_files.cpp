@@ -138,6 +138,7 @@ std::vector<RunUpdate> readUpdates(const fs::path& run) {
     update.covariance << number(xx), number(xy), number(xphi), number(xy), number(yy), number(yphi), number(xphi),
         number(yphi), number(phiphi);
     update.particles = static_cast<int>(number(particles));
+    update.lost = row[status] == nameOf(LocalizationStatus::lost);
   }
   return updates;
 }

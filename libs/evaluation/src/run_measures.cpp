@@ -42,13 +42,14 @@ std::optional<double> carriedDistance(const Trajectory& ground_truth, const Kidn
   return (after->translation() - before->translation()).head<2>().norm();
 }
 
-void measureRecovery(std::span<const TimedEstimate> estimates, const Trajectory& ground_truth,
-                     const Kidnapped& kidnapped, RunMeasures& measures) {
-  const auto seeing = std::find_if(estimates.begin(), estimates.end(),
-                                   [&](const TimedEstimate& estimate) { return estimate.time >= kidnapped.until; });
-  measures.recovery_time =
-      evaluateTrajectory(estimates.subspan(static_cast<std::size_t>(seeing - estimates.begin())), ground_truth)
-          .time_to_converge;
+void measureRecovery(const std::vector<RunUpdate>& updates, const Trajectory& ground_truth, const Kidnapped& kidnapped,
+                     RunMeasures& measures) {
+  const auto seeing = std::find_if(updates.begin(), updates.end(),
+                                   [&](const RunUpdate& update) { return update.estimate.time >= kidnapped.until; });
+  const std::vector<RunUpdate> since(seeing, updates.end());
+  measures.recovery_time = evaluateTrajectory(estimatesOf(since), ground_truth).time_to_converge;
+  const auto lost = std::find_if(since.begin(), since.end(), [](const RunUpdate& update) { return update.lost; });
+  if (lost != since.end()) measures.notice_time = lost->estimate.time - since.front().estimate.time;
   measures.kidnapped_distance = carriedDistance(ground_truth, kidnapped);
 }
 
@@ -101,7 +102,9 @@ RunMeasures measureRun(const std::vector<RunUpdate>& updates, const Trajectory& 
     const double begin = estimates.front().time;
     measures.distance_to_converge = distanceAlong(ground_truth, begin, begin + *evaluation.time_to_converge);
   }
-  if (kidnapped) measureRecovery(estimates, ground_truth, *kidnapped, measures);
+  constexpr double soon = 30;  // s
+  measures.found = evaluation.time_to_converge.value_or(2 * soon) <= soon && evaluation.ends_in_success;
+  if (kidnapped) measureRecovery(updates, ground_truth, *kidnapped, measures);
   measures.lifelong = lifelongScore(estimates, ground_truth);
   measures.nees = meanNees(updates, ground_truth, EvaluationOptions().max_gap);
   for (const RunUpdate& update : updates) measures.particles += update.particles;

@@ -90,6 +90,7 @@ TrajectoryEvaluation evaluateTrajectory(std::span<const TimedEstimate> estimates
   }
   result.compared = static_cast<int>(compared.size());
   if (compared.empty()) return result;
+  result.ends_in_success = compared.back().success;
   result.success_share = static_cast<double>(successes) / result.compared;
   const auto localized = [&](std::size_t i) { return compared[i].localized; };
   result.position = statisticsWhere(compared, &PoseError::position, localized);

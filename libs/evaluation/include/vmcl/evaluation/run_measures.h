@@ -21,6 +21,7 @@ struct RunUpdate {
   TimedEstimate estimate;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, phi): m, m, rad
   int particles = 0;
+  bool lost = false;  ///< says that it is
 };
 
 /// All that is measured of one run against its ground truth. A measure without a value did not come to pass, or has
@@ -36,7 +37,9 @@ struct RunMeasures {
   std::array<double, success_distances.size()> success{};  ///< shares of all updates, localized or not
   std::optional<double> time_to_converge;                  ///< s
   std::optional<double> distance_to_converge;              ///< m, along the true path
+  bool found = false;                                      ///< converges within 30 s and succeeds in the last update
   std::optional<double> recovery_time;                     ///< from when the kidnapped robot sees again, s
+  std::optional<double> notice_time;                       ///< from then until it says that it is lost, s
   std::optional<double> kidnapped_distance;                ///< that it was carried, m; only if it was
   double false_accept_share = 0;  ///< of the updates at which it is localized; 0: never localized
   LifelongScore lifelong;

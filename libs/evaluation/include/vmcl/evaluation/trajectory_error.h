@@ -44,13 +44,14 @@ struct EvaluationOptions {
 
 /// Of one run. Only estimates whose time the ground truth covers are compared.
 struct TrajectoryEvaluation {
-  int estimates = 0;         ///< all
-  int compared = 0;          ///< with ground truth
-  int localized = 0;         ///< of those compared, the ones stood by
-  int false_accepts = 0;     ///< of those, the ones that are wrong
-  double success_share = 0;  ///< of those compared, localized or not; 0 when none
-  ErrorStatistics position;  ///< of the localized ones, m
-  ErrorStatistics heading;   ///< of the localized ones, rad
+  int estimates = 0;             ///< all
+  int compared = 0;              ///< with ground truth
+  int localized = 0;             ///< of those compared, the ones stood by
+  int false_accepts = 0;         ///< of those, the ones that are wrong
+  double success_share = 0;      ///< of those compared, localized or not; 0 when none
+  bool ends_in_success = false;  ///< the last one compared does
+  ErrorStatistics position;      ///< of the localized ones, m
+  ErrorStatistics heading;       ///< of the localized ones, rad
 
   /// From the first estimate to the first of those that are localized and succeed with no failure in the half second of
   /// log after them (or the rest of the log, if shorter); s. Nothing: the run never converged.
