@@ -43,12 +43,21 @@ TEST_F(VisualKeyframeMapTest, LikelihoodPeaksAtTheTruth) {
   for (const PlanarPose& truth : {truth_, PlanarPose{-0.1, 0.2, 3.0}}) expectPeakAt(truth, map, imageFrom(truth));
 }
 
-TEST_F(VisualKeyframeMapTest, AMatchCountsByItsWeight) {
-  VisualMapOptions options, half;
-  half.match_weight = options.match_weight / 2;
-  const VisualKeyframeMap map(options, content_), with_half(half, content_);
+TEST_F(VisualKeyframeMapTest, MatchesThatErrTogetherCountAsOneThoseThatDoNotEach) {
+  VisualMapOptions apart, together;
+  apart.match_correlation = 0;
+  together.match_correlation = 1;
+  const VisualKeyframeMap each(apart, content_), one(together, content_);
   const CObservationImage image = imageFrom(truth_);
-  EXPECT_NEAR(logLikelihood(map, image, truth_), 2 * logLikelihood(with_half, image, truth_), 1e-9);
+  std::vector<double> sums(1);
+  const double matches = each.addLogLikelihoods(image, {&truth_, 1}, 1, sums);
+  EXPECT_GT(matches, 10);
+  EXPECT_NEAR(one.addLogLikelihoods(image, {&truth_, 1}, 1, sums), 1, 1e-12);
+  EXPECT_NEAR(logLikelihood(each, image, truth_), matches * logLikelihood(one, image, truth_), 1e-6);
+  for (const double correlation : {-0.1, 1.1}) {
+    together.match_correlation = correlation;
+    EXPECT_THROW(together.check(), std::invalid_argument);
+  }
 }
 
 TEST_F(VisualKeyframeMapTest, KeptMatchesAreFoundAgain) {
@@ -189,13 +198,14 @@ TEST_F(VisualKeyframeMapTest, DoesWithoutThreadsWhereThereAreNone) {
 
 TEST_F(VisualKeyframeMapTest, CountsIndependentMatches) {
   VisualMapOptions all;
-  all.match_weight = 1;
+  all.match_correlation = 0;
   const VisualKeyframeMap map({}, content_), undivided(all, content_);
   const CObservationImage image = imageFrom(truth_);
   std::vector<double> sums(1);
   const double matches = undivided.addLogLikelihoods(image, {&truth_, 1}, 1, sums);
   EXPECT_GT(matches, 10);
-  EXPECT_NEAR(map.addLogLikelihoods(image, {&truth_, 1}, 1, sums), VisualMapOptions().match_weight * matches, 1e-9);
+  const double expected = matches / (1 + (matches - 1) * VisualMapOptions().match_correlation);
+  EXPECT_NEAR(map.addLogLikelihoods(image, {&truth_, 1}, 1, sums), expected, 1e-9);
 }
 
 TEST_F(VisualKeyframeMapTest, FewMatchesCountAsAll) {

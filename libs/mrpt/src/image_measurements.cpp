@@ -87,7 +87,8 @@ void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, Imag
   const std::size_t all = measurement.problem.matches.size();
   const std::size_t most = options_.max_matches > 0 ? static_cast<std::size_t>(options_.max_matches) : all;
   const std::size_t used = std::min(most, all);
-  measurement.independent_matches = options_.match_weight * static_cast<double>(all);
+  const auto count = static_cast<double>(all);
+  measurement.independent_matches = count / (1 + (count - 1) * options_.match_correlation);
   measurement.weight = measurement.independent_matches / static_cast<double>(used);
   measurement.likelihood.emplace(used < all ? thinned(measurement.problem, used) : measurement.problem, of_particles);
 }

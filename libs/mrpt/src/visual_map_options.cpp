@@ -15,7 +15,7 @@ template <typename Options, typename Visit>
 void visitLikelihoodOptions(Options& options, Visit&& visit) {
   auto& relocalizer = options.relocalizer;
   visit("particle_sigma_px", options.particle_sigma_px);
-  visit("match_weight", options.match_weight);
+  visit("match_correlation", options.match_correlation);
   visit("max_matches", options.max_matches);
   visit("retrieved", relocalizer.retrieved);
   visit("ranked", relocalizer.ranked);
@@ -58,8 +58,8 @@ void VisualMapOptions::check() const {
       throw std::invalid_argument(std::string(key) + " = " + std::to_string(value) + " is not positive");
   };
   demand("particle_sigma_px", particle_sigma_px);
-  if (!(match_weight > 0 && match_weight <= 1))
-    throw std::invalid_argument("match_weight = " + std::to_string(match_weight) + " is not in (0, 1]");
+  if (!(match_correlation >= 0 && match_correlation <= 1))
+    throw std::invalid_argument("match_correlation = " + std::to_string(match_correlation) + " is not in [0, 1]");
   if (max_matches < 0) throw std::invalid_argument("max_matches = " + std::to_string(max_matches) + " is negative");
   FeatureOptions().choose(features);
   relocalizer.check();

@@ -13,11 +13,12 @@ namespace vmcl {
 /// What the ini says about a visual map, in the three sections that MRPT gives every map. A particle's log likelihood
 /// is
 ///
-///     match_weight * L(pose), with L at particle_sigma_px in place of sigma_px.
+///     L(pose) / (1 + (n - 1) match_correlation), with L at particle_sigma_px in place of sigma_px
 ///
-/// A match counts as a small part of an independent one because neighbouring features err together: an error of the
-/// mount, of a group of landmarks, of the time stamp moves many at once, and a repeated texture brings a dozen wrong
-/// matches that agree. (AMCL uses laser_max_beams of the beams for the like reason.) The wider noise gives each
+/// and n the number of matches. Those of an image err together: an error of the mount, of a group of landmarks, of the
+/// time stamp moves many at once, and a repeated texture brings a dozen wrong matches that agree. So many tell hardly
+/// more than some, and a few nearly as much as if they were independent (the design effect of cluster sampling: Kish,
+/// Survey Sampling, 1965). AMCL uses laser_max_beams of the beams for the like reason. The wider noise gives each
 /// particle the likelihood of its neighbourhood: a few thousand particles lie centimetres apart, where an image tells
 /// millimetres.
 struct VisualMapOptions {
@@ -27,9 +28,9 @@ struct VisualMapOptions {
   std::string match_directory;   ///< [.._creationOpts] keeps the matches of images, for other runs on the same log and
                                  ///< map, with the same options; empty: none
   double particle_sigma_px = 5;  ///< [.._likelihoodOpts] pixel noise when particles are weighed
-  double match_weight = 0.04;    ///< [.._likelihoodOpts] part of an independent match that one counts as, (0, 1]
-  int max_matches = 0;           ///< [.._likelihoodOpts] most matches of an image that particles are weighed by, which
-                                 ///< count as all do; 0: all
+  double match_correlation = 0.1;  ///< [.._likelihoodOpts] of the errors of an image's matches, [0, 1]
+  int max_matches = 0;  ///< [.._likelihoodOpts] most matches of an image that particles are weighed by, which
+                        ///< count as all do; 0: all
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, ranked, reliable_depth, max_point_sigma,
                                    ///< max_ratio, sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations,
                                    ///< max_modes
