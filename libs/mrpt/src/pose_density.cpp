@@ -2,7 +2,9 @@
 #include "vmcl/mrpt/pose_density.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace vmcl {
 namespace {
@@ -40,15 +42,34 @@ void PoseDensity::visitCellsAround(const PlanarPose& pose, Visit&& visit) {
   }
 }
 
+/// Where the key is, or would be put.
+std::size_t PoseDensity::slotOf(uint64_t key) const {
+  constexpr uint64_t golden = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio (Knuth, vol. 3, 6.4)
+  const std::size_t last = cells_.size() - 1;
+  auto slot = static_cast<std::size_t>((key * golden) >> std::countl_zero(last));
+  while (cells_[slot].key != key && cells_[slot].key != no_key) slot = (slot + 1) & last;
+  return slot;
+}
+
+void PoseDensity::grow() {
+  const std::vector<Cell> before = std::exchange(cells_, std::vector<Cell>(2 * cells_.size()));
+  for (const Cell& cell : before)
+    if (cell.key != no_key) cells_[slotOf(cell.key)] = cell;
+}
+
 void PoseDensity::add(const PlanarPose& pose, double weight) {
-  visitCellsAround(pose, [&](uint64_t key, double share) { cells_[key] += weight * share; });
+  visitCellsAround(pose, [&](uint64_t key, double share) {
+    if (2 * (used_ + 1) > cells_.size()) grow();
+    Cell& cell = cells_[slotOf(key)];
+    used_ += cell.key == no_key;
+    cell.key = key;
+    cell.mass += weight * share;
+  });
 }
 
 double PoseDensity::operator()(const PlanarPose& pose) const {
   double mass = 0;
-  visitCellsAround(pose, [&](uint64_t key, double share) {
-    if (const auto cell = cells_.find(key); cell != cells_.end()) mass += cell->second * share;
-  });
+  visitCellsAround(pose, [&](uint64_t key, double share) { mass += cells_[slotOf(key)].mass * share; });
   return mass / (cell_position * cell_position * cell_heading);
 }
 

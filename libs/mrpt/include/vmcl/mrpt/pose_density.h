@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <numbers>
-#include <unordered_map>
+#include <vector>
 
 #include "vmcl/geometry/planar_pose.h"
 
@@ -28,7 +28,18 @@ class PoseDensity {
   template <typename Visit>
   static void visitCellsAround(const PlanarPose& pose, Visit&& visit);
 
-  std::unordered_map<uint64_t, double> cells_;
+  /// One cell of the hash table, which is searched from where the key's hash points to on (open addressing).
+  struct Cell {
+    uint64_t key = no_key;
+    double mass = 0;
+  };
+  static constexpr uint64_t no_key = ~uint64_t{0};  ///< of no pose: its heading would be beyond a turn
+
+  std::size_t slotOf(uint64_t key) const;
+  void grow();
+
+  std::vector<Cell> cells_{Cell{}, Cell{}};  ///< a power of two, at least half of them free
+  std::size_t used_ = 0;
 };
 
 }  // namespace vmcl
