@@ -52,7 +52,7 @@ TEST_F(AmclWorkflow, NothingHappensBeforeAStart) {
   EXPECT_THROW(localizer_->estimate(), std::logic_error);
 }
 
-/// 2000 particles: the mean is known to 2 % of the deviation, a variance to 3 %; five of each.
+/// 2000 particles: the mean is known to 2 % of the deviation, a variance to 3 %; 5.5 of each, false alarm 2e-7.
 TEST_F(AmclWorkflow, InitialPoseWithCovariance) {
   start(flatMap());
   PoseWithCovariance given = near({1, -2, 3.1}, 0.2);
@@ -64,6 +64,7 @@ TEST_F(AmclWorkflow, InitialPoseWithCovariance) {
   EXPECT_EQ(localizer_->health().status, LocalizationStatus::uninitialized);
 }
 
+/// Of 2000 particles nine start within 0.3 m of the place, none with a chance of 1.5e-4.
 TEST_F(AmclWorkflow, GlobalLocalizationOnRequest) {
   start(mapThatFitsAt(3, 3));
   move({});
@@ -139,7 +140,8 @@ TEST_F(AmclWorkflow, EachSensorIsUsedOnceTheRobotHasMovedEnough) {
   }
 }
 
-/// Noise that grows with the square of the way must not depend on how often the movement is read.
+/// Noise that grows with the square of the way must not depend on how often the movement is read. Of 2000 particles the
+/// deviation is known to 1.6 %, of which 10 % are six: false alarm 1e-9.
 TEST_F(AmclWorkflow, OdometryNoiseDoesNotDependOnItsRate) {
   LocalizerOptions noisy = amclOptions();
   noisy.monte_carlo.motion_model->alpha3 = 0.01;  // 0.1 m on 1 m
@@ -218,6 +220,7 @@ TEST_F(AmclWorkflow, TheMapMayChangeWhileRunning) {
   EXPECT_LT(localizer_->estimate().robot_in_map.x, 0.1);
 }
 
+/// Drawn anew, 2000 particles have the covariance to 3 %; 20 % are six of that, false alarm 1e-9.
 TEST_F(AmclWorkflow, PoseAndCovarianceAreSavedAndRestored) {
   start(mapThatFitsAt(0.2, 0.1));
   move({});
@@ -231,6 +234,8 @@ TEST_F(AmclWorkflow, PoseAndCovarianceAreSavedAndRestored) {
   EXPECT_NEAR(after.covariance(0, 0) / before.covariance(0, 0), 1, 0.2);
 }
 
+/// About nine of 2000 particles start at each place. The likelier one would come second if it got seven times fewer of
+/// them, with a chance of 2e-3, or either none.
 TEST_F(AmclWorkflow, ClustersAndTheBestOnesCovariance) {
   start(std::make_shared<FakeMap>([](const PlanarPose& p) {  // two places, one likelier by e
     return std::hypot(p.x - 3, p.y) < 0.3 ? 6 : std::hypot(p.x + 3, p.y) < 0.3 ? 5 : -5;

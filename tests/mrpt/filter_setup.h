@@ -15,7 +15,8 @@ namespace vmcl {
 
 inline constexpr PoseBox box{-4, 4, -4, 4};
 
-/// A filter with one fake map and a fixed sample size.
+/// A filter with one fake map and a fixed sample size. Everything random follows options.seed, 1 unless a test changes
+/// it; chances of a false alarm that tests state are those of any other seed.
 struct FilterSetup {
   PlanarMonteCarloOptions options;
   PlanarMonteCarlo::ParticleFilterOptions filter;

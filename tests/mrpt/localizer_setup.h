@@ -17,7 +17,8 @@ inline mrpt::maps::CMultiMetricMap::Ptr mapsWith(const std::shared_ptr<FakeMap>&
   return maps;
 }
 
-/// All particles at (1, 2, 0), and little noise.
+/// All particles at (1, 2, 0), and little noise: by the default motion model with 200 particles a mean of 1 m of
+/// movement is known to 0.7 mm. Everything random follows the seed, 1 here and in amclOptions().
 inline LocalizationConfig trackingConfig() {
   LocalizationConfig config;
   config.particles_count = 200;
