@@ -82,6 +82,11 @@ struct NormalEquations {
   Vector vy_0, vy_1;  // rows
   Vector v, y;
 
+  void addFirst(const Constraint& constraint) {
+    yy = constraint.N;
+    y = constraint.g;
+  }
+
   void add(const Constraint& constraint, Vector X) {
     const auto& [N, g] = constraint;
     const Vector first = N * X, second = N * Vector{X.y, -X.x};
@@ -119,7 +124,8 @@ std::optional<PlanarTransform> solveDepthPoints(std::span<const RayToPoint> matc
     return Vector{match.point_in_map.x() - place.x(), match.point_in_map.y() - place.y()};
   };
   NormalEquations normal;
-  for (const RayToPoint& match : matches) normal.add(Constraint(match), fromPlace(match));
+  normal.addFirst(Constraint(matches.front()));
+  for (const RayToPoint& match : matches.subspan(1)) normal.add(Constraint(match), fromPlace(match));
   const auto solution = normal.solve();
   if (!solution) return std::nullopt;
   const auto& [v, y] = *solution;
