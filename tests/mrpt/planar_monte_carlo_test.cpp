@@ -114,11 +114,11 @@ struct DrawingSetup : FilterSetup {
     return FilterSetup::make(box, 1000);
   }
 
-  static void drive(PlanarMonteCarlo& filter) {
+  static void drive(PlanarMonteCarlo& driven) {
     const auto frame = someObservation();
     const auto action = movement(0.1, 0.1);
     const PoseMode somewhere = mode({1, 1, 1}, 0.1);
-    filter.update(&action, &frame, {&somewhere, 1});
+    driven.update(&action, &frame, {&somewhere, 1});
   }
 
   std::vector<double> run(uint64_t seed) {
