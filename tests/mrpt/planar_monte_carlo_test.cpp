@@ -122,9 +122,9 @@ struct DrawingSetup : FilterSetup {
   }
 
   std::vector<double> run(uint64_t seed) {
-    auto filter = make(seed);
-    for (int i = 0; i < 5; ++i) drive(filter);
-    return numbersOf(filter);
+    auto fresh = make(seed);
+    for (int i = 0; i < 5; ++i) drive(fresh);
+    return numbersOf(fresh);
   }
 };
 

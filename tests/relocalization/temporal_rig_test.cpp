@@ -83,6 +83,19 @@ TEST(TemporalRigTest, EarlierPointsAreAsUncertainAsOdometry) {
   }
 }
 
+// 100 points, of which 30 are expected to be inliers: each is as unsure as makes the 30 together as sure as one was.
+TEST(TemporalRigTest, ManyPointsDoNotAverageTheErrorOfOdometryAway) {
+  const auto addedVariance = [](int points) {
+    RelocalizationResult seen = frame(0);
+    const Match match = seen.problem.matches[0];
+    seen.problem.matches.assign(static_cast<std::size_t>(points), match);
+    TemporalRig rig({});
+    rig.add(seen, {0, 0, 0});
+    return rig.add(seen, {0.5, 0, 0}).problem.matches.back().point->covariance(0, 0) - match.point->covariance(0, 0);
+  };
+  EXPECT_NEAR(addedVariance(100), 30 * addedVariance(1), 1e-9);
+}
+
 TEST(TemporalRigTest, MatchesWithoutDepthAreOfTheNewestFrameAlone) {
   RelocalizationResult seen = frame(0);
   seen.problem.matches[0].point.reset();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -14,18 +15,26 @@ struct OdometryError {
   double position = 0, heading = 0;
 };
 
-/// As far as the error moves what is seen from the camera, which is about as far away as from the query's. All points
-/// of a frame share its error, which is taken here for one that each has by itself.
+/// As far as the error moves what is seen from the camera, which is about as far away as from the query's.
 void widen(MapPoint& point, const OdometryError& error, const ReferenceCamera& camera) {
   const double distance = (point.point_in_map - camera.map_from_camera.translation()).head<2>().norm();
   const double sigma = std::hypot(error.position, error.heading * distance);
   point.covariance.diagonal().head<2>().array() += sigma * sigma;
 }
 
+/// The points of a frame share its error, but a covariance stands for what each errs by itself: for so much more that
+/// the inliers together do not average the error away.
+OdometryError ofEachPoint(const OdometryError& shared, std::span<const Match> matches) {
+  const auto points = std::ranges::count_if(matches, [](const Match& match) { return match.point.has_value(); });
+  const double inliers = LikelihoodOptions().inlier_prior * static_cast<double>(points);
+  const double times = std::sqrt(std::max(1.0, inliers));
+  return {times * shared.position, times * shared.heading};
+}
+
 /// Appends the cameras and matches with depth of an earlier frame, its cameras mounted where they were as seen from the
 /// robot now.
 void append(RelocalizationResult& result, const RelocalizationResult& frame, const Rigid3& robot_from_earlier,
-            const OdometryError& error) {
+            const OdometryError& shared_error) {
   PoseProblem& problem = result.problem;
   const int first_query_camera = static_cast<int>(problem.query_cameras.size());
   for (QueryCamera camera : frame.problem.query_cameras) {
@@ -40,6 +49,7 @@ void append(RelocalizationResult& result, const RelocalizationResult& frame, con
     result.keyframes.push_back(frame.keyframes[i]);
     problem.reference_cameras.push_back(frame.problem.reference_cameras[i]);
   }
+  const OdometryError error = ofEachPoint(shared_error, frame.problem.matches);
   for (Match match : frame.problem.matches) {
     if (!match.point) continue;
     match.query_camera += first_query_camera;

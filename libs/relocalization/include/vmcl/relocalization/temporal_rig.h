@@ -22,7 +22,8 @@ struct TemporalRigOptions {
 
 /// Ties the matches of frames that a robot took one after the other together by its odometry, as if cameras of one rig
 /// had taken them at once. What odometry may have lost since then widens the points that earlier frames saw, alike in
-/// all directions of the plane, for the heading is not known yet. Their matches without depth, whose epipolar lines
+/// all directions of the plane, for the heading is not known yet, and by so much that a frame's inliers together are no
+/// surer than odometry. Their matches without depth, whose epipolar lines
 /// nothing widens, are left out: as exact ones they would outweigh the newest frame.
 class TemporalRig {
  public:
