@@ -152,13 +152,13 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn")->capture_default_str();
   verb.add_flag("--flat,!--not-flat", options.flat,
-                "the robot stands level at height 0, the default; or as high and tilted as its poses say, up to")
+                "the robot stands level at height 0, the default; or as high and tilted as its poses say")
       ->capture_default_str();
   verb.add_option("--sigma-position", options.sigma_position, "standard deviation of the given positions (m)")
       ->capture_default_str();
   verb.add_option("--sigma-heading-deg", arguments.sigma_heading_deg, "and headings")->capture_default_str();
   verb.add_option("--sigma-tilt-deg", arguments.sigma_tilt_deg,
-                  "standard deviation of the robot's roll and pitch about these; 0: exact")
+                  "standard deviation of the robot's roll and pitch about those of level ground or its poses; 0: exact")
       ->capture_default_str();
   verb.add_option("--sigma-height", options.sigma_height, "and of its height (m)")->capture_default_str();
   verb.add_option("--sigma-mount-tilt-deg", arguments.sigma_mount_tilt_deg,

@@ -177,14 +177,16 @@ TEST(MapAccuracy, FindsTheNoise) {
   EXPECT_NEAR(report.sigma_depth, 0.015, 0.0015);
 }
 
-// What tilts the robot by 0.3 deg from image to image moves pixels by 2.5 px of its 500 px of focal length.
+// What tilts the robot by 0.3 deg from image to image moves pixels by 2.5 px of its 500 px of focal length. Over seeds
+// 1 to 5 the noise was found as 0.468 to 0.496 px, a little of it taken for tilt, and as 1.2 to 2.5 px by a builder
+// that held the robot level: the bounds are over five standard deviations off, of the second its logarithm's.
 TEST(MapAccuracy, TiltIsNoNoise) {
   Recording recording;
   recording.drive.resize(20);
   MapBuilderOptions options = recording.builderOptions();
-  EXPECT_NEAR(recording.build(options, 1).second.sigma_px, 0.5, 0.05);
+  EXPECT_NEAR(recording.build(options, 1).second.sigma_px, 0.48, 0.06);
   options.sigma_tilt = options.sigma_height = 0;
-  EXPECT_GT(recording.build(options, 1).second.sigma_px, 1);
+  EXPECT_GT(recording.build(options, 1).second.sigma_px, 0.6);
 }
 
 // The mean NEES of over 200 points scatters by less than sqrt(6 / 200) = 0.17: five standard deviations are missed by
@@ -213,18 +215,19 @@ TEST(MapAccuracy, KeepsHeightAndTiltOfADriveThatIsNotFlat) {
       Eigen::Translation3d(0, 0, 0.3) * Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 1, 0).normalized());
   MapBuilderOptions options = recording.builderOptions();
   options.flat = false;
-  options.sigma_tilt = options.sigma_height = 0;
   options.sigma_mount_tilt = options.sigma_focal = options.sigma_radial = 0;
   MapBuilder builder({testing::forwardCamera()}, options);
   Random random(1);
   for (std::size_t i = 0; i < recording.drive.size(); ++i) {
     const Rigid3 map_from_robot = toRigid3(recording.drive[i]) * level_from_robot;
+    const Rigid3 truth = toRigid3(recording.drive[i]) * recording.stance(random) * level_from_robot;
     const ReferenceCamera view{testing::forwardCamera().calibration.pinhole,
-                               map_from_robot * testing::forwardCamera().robot_from_camera};
+                               truth * testing::forwardCamera().robot_from_camera};
     builder.add(0.1 * static_cast<double>(i), 0, map_from_robot, see(recording.room, view, 0.1, 0, random).features);
   }
   const auto [map, report] = builder.build();
-  EXPECT_NEAR(map.keyframes[3].map_from_robot.translation().z(), 0.3, 1e-6);
+  EXPECT_NEAR(map.keyframes[3].map_from_robot.translation().z(), 0.3, 5 * recording.sigma_height);
+  EXPECT_LT(report.sigma_px, 0.2);  // tilted about axes a fifth off the robot's, it would see 0.5 px of its tilts
   EXPECT_GT(report.landmarks, 20);
   for (const Eigen::Vector3d& error : landmarkErrors(map, recording.room).errors) EXPECT_LT(error.norm(), 0.2);
 }

@@ -29,6 +29,8 @@ class PlaceRankingTest : public testing::Test {
   std::vector<RetrievedPlace> places_;
 };
 
+// Random descriptors match where one is within 84 of 256 bits of another, the second nearest being some 105 bits off:
+// a chance of 3e-8 a pair, and of 1 in 70 for another seed that any of all 500,000 pairs does.
 TEST_F(PlaceRankingTest, KeepsThosePlacesThatMatchBest) {
   EXPECT_EQ(best(3), (std::vector{3, 1, 4}));
   EXPECT_EQ(best(1), std::vector{3});

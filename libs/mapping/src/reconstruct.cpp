@@ -28,8 +28,10 @@ struct MatchedPair {
 };
 
 PoseUncertainty uncertainty(const MapBuilderOptions& options, double share) {
-  return {share * options.sigma_position, share * options.sigma_heading, share * options.sigma_tilt,
-          share * options.sigma_mount_tilt};
+  return {.position = share * options.sigma_position,
+          .heading = share * options.sigma_heading,
+          .tilt = share * options.sigma_tilt,
+          .mount_tilt = share * options.sigma_mount_tilt};
 }
 
 std::vector<ReferenceCamera> allViews(const Reconstruction& scene) {
@@ -175,9 +177,15 @@ void adjustAndJudge(Reconstruction& scene, ReconstructionResult& result, const M
 }
 
 AdjustmentNoise firstNoise(const MapBuilderOptions& options) {
-  return {{.pixel = options.sigma_px}, options.sigma_position, options.sigma_heading,
-          options.sigma_tilt,          options.sigma_height,   options.sigma_mount_tilt,
-          options.sigma_mount_shift,   options.sigma_focal,    options.sigma_radial};
+  return {.measurement = {.pixel = options.sigma_px},
+          .position = options.sigma_position,
+          .heading = options.sigma_heading,
+          .tilt = options.sigma_tilt,
+          .height = options.sigma_height,
+          .mount_rotation = options.sigma_mount_tilt,
+          .mount_shift = options.sigma_mount_shift,
+          .focal = options.sigma_focal,
+          .radial = options.sigma_radial};
 }
 
 std::vector<int> featureCounts(const Reconstruction& scene) {

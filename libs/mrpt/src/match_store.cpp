@@ -24,7 +24,7 @@
 namespace vmcl {
 namespace {
 
-constexpr std::string_view magic = "VMCLMAT1";
+constexpr std::string_view magic = "VMCLMAT2";  // another when relocalization matches otherwise by default
 constexpr std::size_t max_count = 1'000'000;
 
 uint32_t checksumOf(const std::vector<double>& numbers) {

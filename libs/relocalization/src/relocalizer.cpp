@@ -92,7 +92,7 @@ struct Relocalizer::State {
   RelocalizerOptions options;
   FeatureExtractor extractor;
   std::optional<PlaceNetwork> place_network;
-  std::optional<PlaceIndex> place_index;  ///< where there is no network, whose descriptors are shorter
+  std::optional<PlaceIndex> place_index;  ///< of VLAD; networks' descriptors are compared one by one
   std::vector<bool> is_certain;           ///< landmarks whose largest sigma is small enough
 
   State(std::shared_ptr<const KeyframeMap> used_map, const RelocalizerOptions& used_options)
@@ -158,11 +158,13 @@ struct Relocalizer::State {
   }
 
   void addDepth(const Keyframe& reference, std::span<MatchCandidate> candidates) const {
+    constexpr double max_interpolated_sigma = 0.5;  // m; between landmarks the scene may be anything
+    const double max_sigma = std::min(max_interpolated_sigma, options.max_point_sigma);
     const ReferenceDepth depth(*map, reference, is_certain);
     for (MatchCandidate& candidate : candidates) {
       if (candidate.match.point) continue;
       const auto point = depth.at(candidate.match.reference_pixel);
-      if (point && isNear(point->point_in_map, reference) && largestSigma(point->covariance) <= options.max_point_sigma)
+      if (point && isNear(point->point_in_map, reference) && largestSigma(point->covariance) <= max_sigma)
         candidate.match.point = point;
     }
   }

@@ -60,7 +60,7 @@ Eigen::VectorXf PlaceNetwork::describe(const ImageView& image, const ImageMask& 
     network_->refuse("its output has " + std::to_string(output.size()) + " numbers for an image of " +
                      std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels, " +
                      std::to_string(size_) + " for another: it is none of whole images");
-  return output.normalized();
+  return output.stableNormalized();
 }
 
 }  // namespace vmcl

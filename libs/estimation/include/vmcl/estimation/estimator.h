@@ -31,7 +31,8 @@ struct EstimatorOptions {
   int refined = 16;                ///< best hypotheses that are optimized, at least 1
   int max_modes = 5;               ///< modes reported, at least 1
   SoftPlane plane{};               ///< unmodelled tilt and height of the robot
-  double in_sight_log_odds = 3;    ///< that a reference has the place in sight, before the matches are seen
+  double in_sight_log_odds = 3;    ///< before the matches are seen, that a reference has the place in sight and
+                                   ///< not one that looks like it
 
   /// Throws std::invalid_argument naming the bad key.
   void check() const;

@@ -17,13 +17,12 @@ struct MapBuilderOptions {
   MatchingOptions matching;
   double keyframe_distance = 0.10;  ///< a new keyframe after this way (m)
   double keyframe_rotation = 0.09;  ///< or this turn (rad)
-  bool flat = true;              ///< the robot stands level at height 0; else on the heights, rolls and pitches of the
-                                 ///< given poses; either up to
-  double sigma_tilt = 0.005;     ///< prior of its roll and pitch about these (rad); 0: exact
-  double sigma_height = 0.003;   ///< prior of its height about these (m); 0: exact
-  double sigma_px = 1.0;         ///< first guess at the standard deviation of a feature's position; residuals tell it
-  double sigma_position = 0.02;  ///< prior of the given robot positions (m)
-  double sigma_heading = 0.01;   ///< prior of the given robot headings (rad)
+  bool flat = true;  ///< the robot stands level at height 0; else on the heights, rolls and pitches of the given poses
+  double sigma_tilt = 0.005;       ///< prior of its roll and pitch about those (rad); 0: exact
+  double sigma_height = 0.003;     ///< prior of its height about that (m); 0: exact
+  double sigma_px = 1.0;           ///< first guess at the standard deviation of a feature's position; residuals tell it
+  double sigma_position = 0.02;    ///< prior of the given robot positions (m)
+  double sigma_heading = 0.01;     ///< prior of the given robot headings (rad)
   double sigma_mount_tilt = 0.05;  ///< prior of the given mount's roll, pitch and yaw (rad); 0: mount is exact
   double sigma_mount_shift = 0.0;  ///< prior of the given mount's x and y (m); 0: exact
   double sigma_focal = 0.03;       ///< prior of the given focal lengths, relative; 0: exact
@@ -89,7 +88,8 @@ class MapBuilder {
 
   /// Offers an image taken at `time` (s) by camera `camera` with the robot at map_from_robot. Returns whether it was
   /// taken as a keyframe. `depth` is what a range camera or stereo measured in the image; empty: nothing. Throws
-  /// std::invalid_argument for a bad image or depth size, index or pose.
+  /// std::invalid_argument for a bad image or depth size, index or pose, std::runtime_error naming the network of
+  /// features or places that cannot be used on it.
   bool add(double time, int camera, const Rigid3& map_from_robot, const ImageView& image, const DepthImage& depth = {});
 
   /// The same with features found elsewhere, and the measured depth of each (m, 0: none) or none at all. Throws

@@ -34,11 +34,10 @@ struct RelocalizerOptions {
   /// use, since each carries its covariance; as 2D-2D matches they would be taken to be as near as the others.
   double reliable_depth = 100;
   double max_point_sigma = 10;  ///< and so do landmarks less certain than this (m, largest axis)
-  /// Floors and tyres give a little. Place recognition may name places where the robot is not, and like things in
-  /// different places agree on more than chance would: of 524 images of other buildings 11 were given a pose at -3,
-  /// none at -9, and no image of the map's own lost its pose down to -13.
+  /// Floors and tyres give a little. Place recognition may name places where the robot is not, and things that look
+  /// alike agree on more than chance would: hence the evidence asked for.
   EstimatorOptions estimator{
-      .likelihood = {.sigma_px = 1}, .plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .in_sight_log_odds = -8};
+      .likelihood = {.sigma_px = 1}, .plane = {.sigma_tilt = 0.005, .sigma_height = 0.003}, .in_sight_log_odds = -9};
   /// Whether samples are drawn as the map's keyframes say (chosenSolution), not as estimator.solver does.
   bool solution_of_map = false;
 

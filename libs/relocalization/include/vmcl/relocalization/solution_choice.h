@@ -21,8 +21,8 @@ struct SolutionAnalysis {
 
 /// From the keyframe's landmarks alone, those that count as reliable by the options: their places, covariances and
 /// numbers of observations n: each but the first halves the chance that the depth is wrong, and so does a measured
-/// depth. Inlier rates, which nobody
-/// knows before the query, are the estimator's prior; the noise of pixels is MapBuilder's.
+/// depth. Inlier rates, which nobody knows before the query, are the estimator's prior; the noise of pixels is
+/// MapBuilder's.
 SolutionAnalysis analyzeSolutions(const KeyframeMap& map, const Keyframe& keyframe, const RelocalizerOptions& options);
 
 /// Sets Keyframe::solution of all by the analysis.

@@ -32,7 +32,7 @@ bool isDescriptorLength(FeatureKind kind, Eigen::Index bytes);
 /// unit vector in steps of 1/256 above -1/2.
 using Descriptors = Eigen::Matrix<uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Local features of one image.
+/// Local features of one image, the strongest first where FeatureExtractor found them.
 struct FeatureSet {
   FeatureKind kind = FeatureKind::orb;
   std::vector<Eigen::Vector2f> pixels;  ///< ideal (undistorted) pixels

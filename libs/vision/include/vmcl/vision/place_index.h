@@ -17,6 +17,7 @@ class PlaceIndex {
 
   /// The places (one a column) are kept by reference and must outlive the index.
   explicit PlaceIndex(const Eigen::MatrixXf& places);
+  explicit PlaceIndex(Eigen::MatrixXf&&) = delete;
 
   /// As retrieve(). Thread safe.
   std::vector<RetrievedPlace> retrieve(const Eigen::VectorXf& query, int count) const;
