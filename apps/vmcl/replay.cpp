@@ -32,7 +32,7 @@ class Gaps {
     if (!time) return false;
     if (std::isnan(first_)) first_ = *time;
     if (replay_.kidnapping && !kidnapped_) {
-      const double from = *time + replay_.kidnapping->at;
+      const double from = first_ + replay_.kidnapping->at;
       kidnapped_ = Kidnapped{from, from + replay_.kidnapping->skip};
     }
     if (*time < first_ + replay_.skipped || *time < replay_.begin) return true;

@@ -3,6 +3,7 @@
 """Starts MRPT's own pf-localization anywhere in the map, with the laser alone, at places of a drive and counts the
 starts that come to the true pose: those of global_starts.yaml, by the rules of `vmcl evaluate`. Narrow, where vmcl says
 that it is localized, is here a mean with a deviation (root of the covariance's trace) below 0.3 m and 10 deg together.
+pf-localization cannot be seeded: each call gives other figures.
 
 usage: stock_laser.py LASER.ini SCENE ...     with SCENE.rawlog, SCENE.simplemap and SCENE.groundtruth.tum"""
 import argparse
@@ -21,7 +22,8 @@ REGION = 1000  # m: wider than any map, of which pf-localization then takes what
 
 
 def read_truth(file):
-    rows = [[float(v) for v in line.split()] for line in Path(file).read_text().splitlines() if line[0] != '#']
+    lines = [line.split() for line in Path(file).read_text().splitlines()]
+    rows = [[float(v) for v in fields] for fields in lines if fields and not fields[0].startswith('#')]
     return [r[0] for r in rows], [(r[1], r[2], 2 * math.atan2(r[6], r[7])) for r in rows]
 
 
@@ -103,6 +105,10 @@ def wilson(successes, trials, z=1.959964):
     return f'{share:.2f} ({(middle - half) / (1 + square):.2f} to {(middle + half) / (1 + square):.2f})'
 
 
+def mean(values, unit):
+    return f'{statistics.fmean(values):.2f} {unit}' if values else '-'
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--repetitions', type=int, default=2, help='of each start')
@@ -128,8 +134,7 @@ def main():
         converged = [result for result in results if result[0] is not None]
         print(f'| {Path(scene).name} | {len(results)} | {wilson(sum(r[1] for r in results), len(results))} '
               f'| {wilson(sum(r[2] for r in results), len(results))} '
-              f'| {statistics.fmean(r[0] for r in converged):.2f} s '
-              f'| {statistics.fmean(r[3] or 0 for r in converged):.2f} m |', flush=True)
+              f'| {mean([r[0] for r in converged], "s")} | {mean([r[3] for r in converged], "m")} |', flush=True)
 
 
 if __name__ == '__main__':

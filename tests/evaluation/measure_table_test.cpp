@@ -40,6 +40,16 @@ TEST(MeasureTable, MediansAreOfTheRunsThatHaveTheFigure) {
             "-");
 }
 
+TEST(MeasureTable, OnlyRunsThatWereLocalizedCanNotice) {
+  std::vector<RunResult> runs(3);
+  runs[0].measures.noticed = true;
+  runs[1].measures.noticed = false;
+  const Cell cell{0, 0, {}, {&runs[0], &runs[1], &runs[2]}, 0, 0};
+  const auto rate = summarize(measure(resultMeasures(), "noticed"), cell);
+  EXPECT_EQ(rate->runs, 2);
+  EXPECT_EQ(rate->value, 0.5);
+}
+
 TEST(MeasureTable, HeadingsAreInDegrees) {
   RunResult run;
   run.measures.heading_rmse = 2 * degree;

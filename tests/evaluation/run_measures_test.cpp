@@ -16,6 +16,15 @@ std::vector<RunUpdate> goodRun() {
   return run;
 }
 
+/// Carried from x = 2 m to 5 m, sees again from 5 s on, and is wrong from then until before `recovery`.
+std::vector<RunUpdate> kidnappedRun(double recovery) {
+  std::vector<RunUpdate> run = goodRun();
+  run.erase(run.begin() + 4, run.begin() + 10);
+  for (RunUpdate& update : run)
+    if (update.estimate.time >= 5 && update.estimate.time < recovery) update.estimate.robot_in_map.x -= 3;
+  return run;
+}
+
 TEST(RunMeasures, OfAGoodRun) {
   const RunMeasures measures = measureRun(goodRun(), straightDrive());
   EXPECT_EQ(measures.updates, 21);
@@ -31,6 +40,7 @@ TEST(RunMeasures, OfAGoodRun) {
   EXPECT_TRUE(measures.found);
   EXPECT_FALSE(measures.recovery_time);
   EXPECT_FALSE(measures.notice_time);
+  EXPECT_FALSE(measures.noticed);
   EXPECT_FALSE(measures.kidnapped_distance);
 }
 
@@ -76,15 +86,13 @@ TEST(RunMeasures, IsFoundWhenItConvergesInTimeAndIsRightAtTheEnd) {
   EXPECT_FALSE(measureRun(late, Trajectory(still)).found);
 }
 
-// Carried from x = 2 m to 5 m; sees again from 5 s on, wrongly until 7 s, and is lost by its own account at 6 s.
+// Is lost by its own account at 6 s, and right from 7 s on.
 TEST(RunMeasures, OfAKidnapping) {
-  std::vector<RunUpdate> run = goodRun();
-  run.erase(run.begin() + 4, run.begin() + 10);
-  for (RunUpdate& update : run)
-    if (update.estimate.time >= 5 && update.estimate.time < 7) update.estimate.robot_in_map.x -= 3;
+  std::vector<RunUpdate> run = kidnappedRun(7);
   for (RunUpdate& update : run) update.lost = update.estimate.time == 6 || update.estimate.time == 1;
   const RunMeasures measures = measureRun(run, straightDrive(), Kidnapped{2, 5});
   EXPECT_NEAR(measures.notice_time.value(), 1, 1e-9);
+  EXPECT_EQ(measures.noticed, true);
   EXPECT_NEAR(measures.kidnapped_distance.value(), 3, 1e-9);
   EXPECT_NEAR(measures.recovery_time.value(), 2, 1e-9);
   EXPECT_EQ(measures.time_to_converge, 0);
@@ -92,9 +100,45 @@ TEST(RunMeasures, OfAKidnapping) {
 }
 
 TEST(RunMeasures, ARobotThatStaysLostDoesNotRecover) {
-  std::vector<RunUpdate> run = goodRun();
-  for (std::size_t i = 10; i < run.size(); ++i) run[i].estimate.robot_in_map.x -= 3;
-  EXPECT_FALSE(measureRun(run, straightDrive(), Kidnapped{2, 5}).recovery_time);
+  EXPECT_FALSE(measureRun(kidnappedRun(11), straightDrive(), Kidnapped{2, 5}).recovery_time);
+}
+
+TEST(RunMeasures, ANoticeMayComeTooLateOrNever) {
+  std::vector<RunUpdate> run = kidnappedRun(11);
+  EXPECT_EQ(measureRun(run, straightDrive(), Kidnapped{2, 5}).noticed, false);
+  for (RunUpdate& update : run) update.lost = update.estimate.time >= 7.5;
+  const RunMeasures measures = measureRun(run, straightDrive(), Kidnapped{2, 5});
+  EXPECT_NEAR(measures.notice_time.value(), 2.5, 1e-9);
+  EXPECT_EQ(measures.noticed, false);
+}
+
+TEST(RunMeasures, ARobotLostBeforeItIsKidnappedNoticesNothing) {
+  std::vector<RunUpdate> run = kidnappedRun(7);
+  for (RunUpdate& update : run)
+    if (update.estimate.time >= 1 && update.estimate.time < 7) {
+      update.estimate.localized = false;
+      update.lost = true;
+    }
+  const RunMeasures measures = measureRun(run, straightDrive(), Kidnapped{2, 5});
+  EXPECT_FALSE(measures.notice_time);
+  EXPECT_FALSE(measures.noticed);
+  EXPECT_NEAR(measures.recovery_time.value(), 2, 1e-9);
+}
+
+// Recovers at 5.5 s, and is lost at 6.5 s for another reason.
+TEST(RunMeasures, ARobotLostAfterItRecoversHasNotNoticed) {
+  std::vector<RunUpdate> run = kidnappedRun(5.5);
+  for (RunUpdate& update : run) update.lost = update.estimate.time == 6.5;
+  const RunMeasures measures = measureRun(run, straightDrive(), Kidnapped{2, 5});
+  EXPECT_NEAR(measures.recovery_time.value(), 0.5, 1e-9);
+  EXPECT_FALSE(measures.notice_time);
+  EXPECT_EQ(measures.noticed, false);
+}
+
+TEST(RunMeasures, ARobotThatSearchesWhenItIsKidnappedHasNothingToNotice) {
+  std::vector<RunUpdate> run = kidnappedRun(11);
+  for (RunUpdate& update : run) update.estimate.localized = false;
+  EXPECT_FALSE(measureRun(run, straightDrive(), Kidnapped{2, 5}).noticed);
 }
 
 TEST(RunMeasures, OfARunThatIsNeverLocalized) {

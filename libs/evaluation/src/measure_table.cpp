@@ -41,12 +41,6 @@ Value recovered(const RunResult& run) {
   return asNumber(run.measures.recovery_time.has_value());
 }
 
-Value noticed(const RunResult& run) {
-  constexpr double soon = 2;  // s
-  if (!run.measures.kidnapped_distance) return std::nullopt;
-  return asNumber(run.measures.notice_time.value_or(2 * soon) <= soon);
-}
-
 }  // namespace
 
 const std::vector<Measure>& resultMeasures() {
@@ -73,7 +67,7 @@ const std::vector<Measure>& resultMeasures() {
        [](const RunResult& run) { return Value(asNumber(run.measures.false_accept_share > 0)); }},
       {"recovered", "kidnapped runs that recover", "", 2, Summary::rate, recovered},
       {"recovery_time_s", "time to recover", "s", 2, Summary::median, of(&M::recovery_time)},
-      {"noticed", "kidnapped runs that say lost within 2 s", "", 2, Summary::rate, noticed},
+      {"noticed", "runs localized when kidnapped that say lost within 2 s", "", 2, Summary::rate, of(&M::noticed)},
       {"notice_time_s", "time to say lost", "s", 2, Summary::median, of(&M::notice_time)},
       {"kidnapped_distance_m", "carried off by", "m", 2, Summary::median, of(&M::kidnapped_distance)},
       {"correct_rate", "OpenLORIS CR (1 m, 30 deg)", "", 3, Summary::mean,

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace vmcl {
@@ -42,15 +43,31 @@ std::optional<double> carriedDistance(const Trajectory& ground_truth, const Kidn
   return (after->translation() - before->translation()).head<2>().norm();
 }
 
+bool localizedBefore(double time, const std::vector<RunUpdate>& updates) {
+  const auto next = std::find_if(updates.begin(), updates.end(),
+                                 [&](const RunUpdate& update) { return update.estimate.time >= time; });
+  return next != updates.begin() && std::prev(next)->estimate.localized;
+}
+
+/// From the first update to the first that says lost, if that comes before the robot recovers.
+std::optional<double> timeToNotice(const std::vector<RunUpdate>& updates, const std::optional<double>& recovery_time) {
+  const auto lost = std::find_if(updates.begin(), updates.end(), [](const RunUpdate& update) { return update.lost; });
+  if (lost == updates.end()) return std::nullopt;
+  const double time = lost->estimate.time - updates.front().estimate.time;
+  return recovery_time && time >= *recovery_time ? std::nullopt : std::optional(time);
+}
+
 void measureRecovery(const std::vector<RunUpdate>& updates, const Trajectory& ground_truth, const Kidnapped& kidnapped,
                      RunMeasures& measures) {
   const auto seeing = std::find_if(updates.begin(), updates.end(),
                                    [&](const RunUpdate& update) { return update.estimate.time >= kidnapped.until; });
   const std::vector<RunUpdate> since(seeing, updates.end());
   measures.recovery_time = evaluateTrajectory(estimatesOf(since), ground_truth).time_to_converge;
-  const auto lost = std::find_if(since.begin(), since.end(), [](const RunUpdate& update) { return update.lost; });
-  if (lost != since.end()) measures.notice_time = lost->estimate.time - since.front().estimate.time;
   measures.kidnapped_distance = carriedDistance(ground_truth, kidnapped);
+  if (!localizedBefore(kidnapped.from, updates)) return;  // it has no pose to lose
+  constexpr double soon = 2;                              // s
+  measures.notice_time = timeToNotice(since, measures.recovery_time);
+  measures.noticed = measures.notice_time && *measures.notice_time <= soon;
 }
 
 }  // namespace
@@ -103,7 +120,8 @@ RunMeasures measureRun(const std::vector<RunUpdate>& updates, const Trajectory& 
     measures.distance_to_converge = distanceAlong(ground_truth, begin, begin + *evaluation.time_to_converge);
   }
   constexpr double soon = 30;  // s
-  measures.found = evaluation.time_to_converge.value_or(2 * soon) <= soon && evaluation.ends_in_success;
+  const auto& time = evaluation.time_to_converge;
+  measures.found = time && *time <= soon && evaluation.ends_in_success;
   if (kidnapped) measureRecovery(updates, ground_truth, *kidnapped, measures);
   measures.lifelong = lifelongScore(estimates, ground_truth);
   measures.nees = meanNees(updates, ground_truth, EvaluationOptions().max_gap);

@@ -39,9 +39,11 @@ struct RunMeasures {
   std::optional<double> distance_to_converge;              ///< m, along the true path
   bool found = false;                                      ///< converges within 30 s and succeeds in the last update
   std::optional<double> recovery_time;                     ///< from when the kidnapped robot sees again, s
-  std::optional<double> notice_time;                       ///< from then until it says that it is lost, s
-  std::optional<double> kidnapped_distance;                ///< that it was carried, m; only if it was
-  double false_accept_share = 0;  ///< of the updates at which it is localized; 0: never localized
+  std::optional<double> notice_time;                       ///< from then until it says that it is lost, s; none if it
+                                                           ///< recovers first, or was not localized when carried off
+  std::optional<bool> noticed;               ///< that within 2 s; only if it was localized when carried off
+  std::optional<double> kidnapped_distance;  ///< that it was carried, m; only if it was
+  double false_accept_share = 0;             ///< of the updates at which it is localized; 0: never localized
   LifelongScore lifelong;
   std::optional<double> nees;  ///< normalized estimation error squared, mean while localized; 3 when consistent
   double particles = 0;        ///< mean
