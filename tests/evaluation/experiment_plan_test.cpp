@@ -127,6 +127,14 @@ TEST_F(ExperimentPlanTest, TheHashTellsOfWhatDecidesOnTheResult) {
   }
 }
 
+TEST_F(ExperimentPlanTest, AKidnappingOfAnotherStartIsAnotherRun) {
+  const Experiment experiment = read(good_), later = read(with("skip: 1.5", "skip: 1.5, start: 0.5"));
+  const Job job = planExperiment(experiment).jobs.back(), later_job = planExperiment(later).jobs.back();
+  EXPECT_EQ(later_job.id, "query.laser.few.kidnapped-at-2s-for-1.5s-after-0.5s.3");
+  EXPECT_NE(later_job.id, job.id);
+  EXPECT_NE(JobDescriber(later).hashOf(later_job), JobDescriber(experiment).hashOf(job));
+}
+
 TEST_F(ExperimentPlanTest, DescribesAJobInALine) {
   const Experiment experiment = read(good_);
   const std::string line = JobDescriber(experiment).describe(planExperiment(experiment).jobs.front());

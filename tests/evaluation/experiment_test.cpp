@@ -51,6 +51,13 @@ TEST_F(ExperimentTest, AKidnappedRobotMayStartLater) {
   const Start start = readExperiment(write("good.yaml", with("skip: 1.5", "skip: 1.5, start: 0.5"))).starts[2];
   EXPECT_TRUE(start.given);
   EXPECT_EQ(start.after, 0.5);
+  EXPECT_EQ(start.name, "kidnapped-at-2s-for-1.5s-after-0.5s");
+}
+
+TEST_F(ExperimentTest, KidnappingsMayDifferInTheStartAlone) {
+  const std::string once = "{at: 2, skip: 1.5}";
+  EXPECT_EQ(readExperiment(write("good.yaml", with(once, once + ", {at: 2, skip: 1.5, start: 1}"))).starts.size(), 4U);
+  EXPECT_EQ(refusal(with(once, once + ", " + once)), "1: starts has two of the name 'kidnapped-at-2s-for-1.5s'");
 }
 
 TEST_F(ExperimentTest, OpenLorisSequence) {

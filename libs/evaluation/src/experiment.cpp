@@ -114,6 +114,13 @@ std::vector<Sensors> readSensors(YamlMap& yaml) {
   return all;
 }
 
+std::string nameOfStart(const std::string& kind, double after) {
+  std::ostringstream name;
+  name << kind;
+  if (after > 0) name << "-after-" << after << 's';
+  return name.str();
+}
+
 Start kidnappedStart(YamlMap yaml) {
   const Kidnapping kidnapping{yaml.get<double>("at"), yaml.get<double>("skip")};
   const double after = yaml.get<double>("start", 0);
@@ -121,16 +128,9 @@ Start kidnappedStart(YamlMap yaml) {
   if (!(kidnapping.skip > 0)) yaml.fail("skip", "is not positive");
   if (!(after >= 0 && after < kidnapping.at)) yaml.fail("start", "is not before the kidnapping");
   yaml.finish();
-  std::ostringstream name;
-  name << "kidnapped-at-" << kidnapping.at << "s-for-" << kidnapping.skip << 's';
-  return {name.str(), true, kidnapping, after};
-}
-
-Start startAfter(double seconds, const std::string& kind) {
-  std::ostringstream name;
-  name << kind;
-  if (seconds > 0) name << "-after-" << seconds << 's';
-  return {name.str(), kind == "given", std::nullopt, seconds};
+  std::ostringstream kind;
+  kind << "kidnapped-at-" << kidnapping.at << "s-for-" << kidnapping.skip << 's';
+  return {nameOfStart(kind.str(), after), true, kidnapping, after};
 }
 
 std::vector<Start> readStarts(YamlMap& yaml) {
@@ -141,7 +141,7 @@ std::vector<Start> readStarts(YamlMap& yaml) {
   if (yaml.has("starts"))
     for (const std::string& kind : yaml.texts("starts")) {
       if (kind != "given" && kind != "global") yaml.fail("starts", "knows given and global, not '" + kind + "'");
-      for (const double time : times) starts.push_back(startAfter(time, kind));
+      for (const double time : times) starts.push_back({nameOfStart(kind, time), kind == "given", std::nullopt, time});
     }
   for (const YamlMap& kidnapping : yaml.list("kidnappings")) starts.push_back(kidnappedStart(kidnapping));
   refuseEqualNames(yaml, "starts", starts);

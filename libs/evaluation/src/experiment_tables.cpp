@@ -104,10 +104,12 @@ std::string titleOf(const ExperimentResults& results, const CellGroup& group) {
   const Start& start = results.experiment.starts[group.start];
   std::ostringstream title;
   title << results.experiment.sessions[group.session].name << ", ";
-  if (start.kidnapping)
-    title << "kidnapped at " << start.kidnapping->at << " s for " << start.kidnapping->skip << " s";
-  else
+  if (!start.kidnapping) {
     title << start.name << " start";
+  } else {
+    title << "kidnapped at " << start.kidnapping->at << " s for " << start.kidnapping->skip << " s";
+    if (start.after > 0) title << ", started after " << start.after << " s";
+  }
   return title.str();
 }
 
