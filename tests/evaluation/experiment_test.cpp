@@ -57,7 +57,7 @@ TEST_F(ExperimentTest, AKidnappedRobotMayStartLater) {
 TEST_F(ExperimentTest, KidnappingsMayDifferInTheStartAlone) {
   const std::string once = "{at: 2, skip: 1.5}";
   EXPECT_EQ(readExperiment(write("good.yaml", with(once, once + ", {at: 2, skip: 1.5, start: 1}"))).starts.size(), 4U);
-  EXPECT_EQ(refusal(with(once, once + ", " + once)), "1: starts has two of the name 'kidnapped-at-2s-for-1.5s'");
+  EXPECT_EQ(refusal(with(once, once + ", " + once)), "5: starts has two of the name 'kidnapped-at-2s-for-1.5s'");
 }
 
 TEST_F(ExperimentTest, OpenLorisSequence) {
