@@ -148,44 +148,26 @@ void addBuilderOptions(CLI::App& verb, MapArguments& arguments) {
   verb.add_option("--mask", arguments.masks,
                   "[LABEL=]FILE: image of the size of a camera's that is white where it shows the robot itself")
       ->allow_extra_args(false);
-  verb.add_option("--keyframe-distance", options.keyframe_distance, "a new keyframe after this way (m)")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+  const auto addAmount = [&verb](const char* name, double& value, const char* help) {
+    verb.add_option(name, value, help)->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  };
+  addAmount("--keyframe-distance", options.keyframe_distance, "a new keyframe after this way (m)");
+  addAmount("--keyframe-rotation-deg", arguments.keyframe_rotation_deg, "or this turn");
   verb.add_flag("--flat,!--not-flat", options.flat,
                 "the robot stands level at height 0, the default; or as high and tilted as its poses say")
       ->capture_default_str();
-  verb.add_option("--sigma-position", options.sigma_position, "standard deviation of the given positions (m)")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-heading-deg", arguments.sigma_heading_deg, "and headings")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-tilt-deg", arguments.sigma_tilt_deg,
-                  "standard deviation of the robot's roll and pitch about those of level ground or its poses; 0: exact")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-height", options.sigma_height, "and of its height (m)")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-mount-tilt-deg", arguments.sigma_mount_tilt_deg,
-                  "standard deviation of the given mount's roll, pitch and yaw; 0: exact")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-mount-shift", options.sigma_mount_shift,
-                  "standard deviation of the given mount's x and y (m); 0: exact")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-focal", options.sigma_focal,
-                  "standard deviation of the given focal length, relative; 0: exact")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  verb.add_option("--sigma-radial", options.sigma_radial,
-                  "standard deviation of the given radial distortion k1 and k2; 0: exact")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+  addAmount("--sigma-position", options.sigma_position, "standard deviation of the given positions (m)");
+  addAmount("--sigma-heading-deg", arguments.sigma_heading_deg, "and headings");
+  addAmount("--sigma-tilt-deg", arguments.sigma_tilt_deg,
+            "standard deviation of the robot's roll and pitch about those of level ground or its poses; 0: exact");
+  addAmount("--sigma-height", options.sigma_height, "and of its height (m)");
+  addAmount("--sigma-mount-tilt-deg", arguments.sigma_mount_tilt_deg,
+            "standard deviation of the given mount's roll, pitch and yaw; 0: exact");
+  addAmount("--sigma-mount-shift", options.sigma_mount_shift,
+            "standard deviation of the given mount's x and y (m); 0: exact");
+  addAmount("--sigma-focal", options.sigma_focal, "standard deviation of the given focal length, relative; 0: exact");
+  addAmount("--sigma-radial", options.sigma_radial,
+            "standard deviation of the given radial distortion k1 and k2; 0: exact");
   verb.add_flag("--dense", options.dense, "keep the images, so that queries can be matched all over them");
   verb.add_option("--seed", options.seed, "of the vocabulary of place recognition")
       ->check(CLI::NonNegativeNumber)

@@ -72,14 +72,11 @@ void adjust(Reconstruction& scene, const AdjustmentNoise& noise) {
   ceres::Problem problem(problem_options);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   std::vector<Stand> stands;
+  stands.reserve(scene.keyframes.size());  // Ceres keeps the addresses
   for (std::size_t k = 0; k < scene.keyframes.size(); ++k) {
-    const PlanarPose& pose = scene.map_from_robot[k];
-    stands.push_back({{pose.x, pose.y, pose.phi}, scene.stance[k]});
-  }
-  for (std::size_t k = 0; k < stands.size(); ++k) {
-    auto& [pose, stance] = stands[k];
-    const PlanarPose given = planarPart(scene.keyframes[k].map_from_robot);
-    const double nearest_phi = pose.z() + wrapAngle(given.phi - pose.z());
+    const PlanarPose now = scene.map_from_robot[k], given = planarPart(scene.keyframes[k].map_from_robot);
+    auto& [pose, stance] = stands.emplace_back(Stand{{now.x, now.y, now.phi}, scene.stance[k]});
+    const double nearest_phi = now.phi + wrapAngle(given.phi - now.phi);
     addPrior(problem, {given.x, given.y, nearest_phi}, noise.poseWeights(), pose.data());
     addPrior(problem, Eigen::Vector3d::Zero(), noise.stanceWeights(), stance.data());
     for (double* moved : {pose.data(), stance.data()}) ordering->AddElementToGroup(moved, 1);
