@@ -131,7 +131,17 @@ class SelectorTest(CommandTest):
         self.assertLess(self.path('once.onnx').stat().st_size, 1_000_000)
         self.path('half.checkpoint').write_bytes(self.path('once.checkpoint').read_bytes())
         self.assertIn('3 epochs done before', self.run_python(*train, 'half.onnx').stdout)
+        other = self.run_python(*train, 'half.onnx', '--bfloat16')
+        self.assertEqual((other.returncode, len(other.stderr.splitlines())), (FAILED, 1), other.stderr)
+        self.assertIn('other examples or settings', other.stderr)
         self.succeed(*self.choose('--network', 'once.onnx'))
+
+    @unittest.skipUnless(PYTHON, 'python3-torch and python3-torchvision are not here')
+    def test_training_in_16_bits(self):
+        self.draw(12)
+        trained = self.run_python(SELECTOR / 'train.py', 'drawn', '--epochs', '1', '--bfloat16', '-o', 'net.onnx')
+        self.assertEqual((trained.returncode, trained.stderr), (DONE, ''))
+        self.succeed('selector', 'ask', 'net.onnx', *self.draw(1))
 
     @unittest.skipUnless(PYTHON, 'python3-torch and python3-torchvision are not here')
     def test_one_class_teaches_nothing(self):
