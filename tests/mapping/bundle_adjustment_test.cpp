@@ -26,7 +26,7 @@ Reconstruction brokenScene() {
 
 TEST(BundleAdjustment, SaysThatItFailed) {
   Reconstruction scene = brokenScene();
-  EXPECT_THROW(adjust(scene, {}), std::runtime_error);
+  EXPECT_THROW(adjust(scene, {}, 1e-6), std::runtime_error);
 }
 
 TEST(LandmarkCovariance, APointThatIsNotFixedHasNoneAndSpoilsNoOther) {

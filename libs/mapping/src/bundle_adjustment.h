@@ -2,7 +2,7 @@
 #pragma once
 
 #include "measurement_noise.h"
-#include "reconstruction.h"
+#include "measurement_residuals.h"
 
 namespace vmcl {
 
@@ -18,23 +18,15 @@ struct AdjustmentNoise {
   double focal = 0.03;           ///< of the given focal lengths, relative
   double radial = 0.1;           ///< of the given k1 and k2
 
-  /// 1 / sigma of the planar pose's (x, y, phi).
-  Eigen::Vector3d poseWeights() const;
-  /// 1 / sigma of Reconstruction::stance.
-  Eigen::Vector3d stanceWeights() const;
-  /// 1 / sigma of each angle of a mount.
-  Eigen::Vector3d mountRotationWeights() const;
-  /// 1 / sigma of a mount's (x, y, z).
-  Eigen::Vector3d mountShiftWeights() const;
-  /// 1 / sigma of CameraCorrection::lens.
-  Eigen::Vector3d lensWeights() const;
-  /// 1 / sigma of CameraCorrection::radial.
-  Eigen::Vector3d radialWeights() const;
+  /// 1 / sigma of a Stand.
+  Stand standWeights() const;
+  /// 1 / sigma of a CorrectionVector.
+  CorrectionVector correctionWeights() const;
 };
 
-/// Bundle adjustment: moves points, poses, stances and camera corrections to the least robust sum of squared errors of
-/// reprojection and depth and deviations from what was given, each in standard deviations. Deterministic.
-/// Throws std::runtime_error when it fails numerically.
-void adjust(Reconstruction& scene, const AdjustmentNoise& noise);
+/// Bundle adjustment: moves points, stands and camera corrections to the least robust sum of squared errors of pixels
+/// and depths and deviations from what was given, each in standard deviations, until a step makes the sum smaller by
+/// less than a share of `tolerance`. Deterministic. Throws std::runtime_error when it fails numerically.
+void adjust(Reconstruction& scene, const AdjustmentNoise& noise, double tolerance);
 
 }  // namespace vmcl

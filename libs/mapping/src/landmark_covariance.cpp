@@ -69,46 +69,35 @@ class BlockMatrix {
   std::map<std::pair<int, int>, Block> entries_;
 };
 
-/// Numbers of the blocks that an observation depends on: for each keyframe its pose and stance, then for each camera
-/// its corrections.
-std::array<int, 6> blocksOf(const Reconstruction& scene, int keyframe) {
+constexpr std::size_t blocks_seen_from = 5;  // of three values, that an observation depends on beside its point
+
+/// Their numbers: for each keyframe the two of its stand, then for each camera the three of its correction.
+std::array<int, blocks_seen_from> blocksOf(const Reconstruction& scene, int keyframe) {
   const int camera = scene.keyframes[static_cast<std::size_t>(keyframe)].camera;
-  const int rotation = 2 * static_cast<int>(scene.keyframes.size()) + 4 * camera;
-  return {2 * keyframe, 2 * keyframe + 1, rotation, rotation + 1, rotation + 2, rotation + 3};
+  const int rotation = 2 * static_cast<int>(scene.keyframes.size()) + 3 * camera;
+  return {2 * keyframe, 2 * keyframe + 1, rotation, rotation + 1, rotation + 2};
 }
 
 /// Derivatives of what an observation says, pixel and depth, in standard deviations: by its blocks and last by the
 /// point. Weighted as the robust loss weighs them.
-std::array<Block, 7> derivatives(const Reconstruction& scene, const MeasurementNoise& noise, const Observation& seen,
-                                 const Eigen::Vector3d& point_in_map) {
+Eigen::Matrix<double, 3, 18> derivatives(const Reconstruction& scene, const MeasurementNoise& noise,
+                                         const Observation& seen, const Eigen::Vector3d& point_in_map) {
   const auto k = static_cast<std::size_t>(seen.keyframe);
   const auto camera = static_cast<std::size_t>(scene.keyframes[k].camera);
-  const PlanarPose& pose = scene.map_from_robot[k];
-  const double pose_values[] = {pose.x, pose.y, pose.phi};
-  const CameraCorrection& given = scene.corrections[camera];
+  const Stand stand = standOf(scene, k);
+  const CorrectionVector correction = correctionVector(scene.corrections[camera]);
   const MeasuringCamera from{&scene.cameras[camera], &scene.level_from_robot[k]};
-  const double* values[] = {pose_values,       scene.stance[k].data(), given.rotation.data(), given.shift.data(),
-                            given.lens.data(), given.radial.data(),    point_in_map.data()};
-  const ReprojectionCost reprojection(new ReprojectionResidual{from, scene.distortedPixel(seen), noise.pixel});
-  Eigen::Vector2d pixel_error;
-  std::array<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>, 7> pixel_by;
-  std::array<double*, 7> pixel_jacobians;
-  for (std::size_t i = 0; i < 7; ++i) pixel_jacobians[i] = pixel_by[i].data();
-  reprojection.Evaluate(values, pixel_error.data(), pixel_jacobians.data());
-  std::array<Block, 7> all;
-  for (std::size_t i = 0; i < 7; ++i)
-    all[i] << huberWeight(pixel_error.norm()) * pixel_by[i], Eigen::RowVector3d::Zero();
-
+  Eigen::Matrix<double, 3, 18> all;
+  const Linearized<2> pixel =
+      PixelMeasurement{from, scene.distortedPixel(seen), noise.pixel}.linearize(stand, correction, point_in_map);
+  all.topRows<2>() << pixel.by_stand, pixel.by_correction, pixel.by_point;
+  all.topRows<2>() *= huberWeight(pixel.error.norm());
+  all.row(2).setZero();
   if (const double depth = scene.depth(seen); depth > 0) {
-    const DepthCost cost(new DepthResidual{from, depth, noise.inverse_depth});
-    const std::array<std::size_t, 5> depends_on = {0, 1, 2, 3, 6};
-    const double* depth_values[] = {values[0], values[1], values[2], values[3], values[6]};
-    double error = 0;
-    std::array<Eigen::RowVector3d, 5> depth_by;
-    double* depth_jacobians[] = {depth_by[0].data(), depth_by[1].data(), depth_by[2].data(), depth_by[3].data(),
-                                 depth_by[4].data()};
-    cost.Evaluate(depth_values, &error, depth_jacobians);
-    for (std::size_t i = 0; i < 5; ++i) all[depends_on[i]].row(2) = huberWeight(std::abs(error)) * depth_by[i];
+    const Linearized<1> measured =
+        DepthMeasurement{from, depth, noise.inverse_depth}.linearize(stand, correction, point_in_map);
+    all.row(2) << measured.by_stand, measured.by_correction, measured.by_point;
+    all.row(2) *= huberWeight(std::abs(measured.error[0]));
   }
   return all;
 }
@@ -116,14 +105,16 @@ std::array<Block, 7> derivatives(const Reconstruction& scene, const MeasurementN
 PointEquations linearize(const Reconstruction& scene, const MeasurementNoise& noise, const ScenePoint& point) {
   PointEquations equations;
   for (const Observation& seen : point.track) {
-    const std::array<Block, 7> J = derivatives(scene, noise, seen, point.point_in_map);
-    equations.information += J[6].transpose() * J[6];
-    const std::array<int, 6> blocks = blocksOf(scene, seen.keyframe);
-    for (std::size_t a = 0; a < 6; ++a) {
-      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += J[a].transpose() * J[6];
+    const Eigen::Matrix<double, 3, 18> J = derivatives(scene, noise, seen, point.point_in_map);
+    const Eigen::Matrix<double, 18, 18> information = J.transpose() * J;
+    equations.information += information.bottomRightCorner<3, 3>();
+    const auto blocks = blocksOf(scene, seen.keyframe);
+    for (std::size_t a = 0; a < blocks.size(); ++a) {
+      const auto row = static_cast<Eigen::Index>(3 * a);
+      equations.coupling.try_emplace(blocks[a], Block::Zero()).first->second += information.block<3, 3>(row, 15);
       for (std::size_t b = 0; b <= a; ++b)
         equations.of_the_poses.try_emplace({blocks[a], blocks[b]}, Block::Zero()).first->second +=
-            J[a].transpose() * J[b];
+            information.block<3, 3>(row, static_cast<Eigen::Index>(3 * b));
     }
   }
   return equations;
@@ -146,19 +137,14 @@ Block eliminate(PointEquations& equations, BlockMatrix& pose_information) {
 
 std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const AdjustmentNoise& noise) {
   const int of_keyframes = 2 * static_cast<int>(scene.keyframes.size());
-  const int blocks = of_keyframes + 4 * static_cast<int>(scene.cameras.size());
+  const int blocks = of_keyframes + 3 * static_cast<int>(scene.cameras.size());
   BlockMatrix pose_information(blocks);
-  const auto squared = [](const Eigen::Vector3d& weights) { return Block(weights.cwiseAbs2().asDiagonal()); };
-  for (int i = 0; i < of_keyframes; i += 2) {
-    pose_information.add(i, i, squared(noise.poseWeights()));
-    pose_information.add(i + 1, i + 1, squared(noise.stanceWeights()));
-  }
-  for (int i = of_keyframes; i < blocks; i += 4) {
-    pose_information.add(i, i, squared(noise.mountRotationWeights()));
-    pose_information.add(i + 1, i + 1, squared(noise.mountShiftWeights()));
-    pose_information.add(i + 2, i + 2, squared(noise.lensWeights()));
-    pose_information.add(i + 3, i + 3, squared(noise.radialWeights()));
-  }
+  const auto addPrior = [&](int first, const auto& weights) {
+    for (int i = 0; i < weights.size() / 3; ++i)
+      pose_information.add(first + i, first + i, weights.template segment<3>(3 * i).cwiseAbs2().asDiagonal());
+  };
+  for (int first = 0; first < of_keyframes; first += 2) addPrior(first, noise.standWeights());
+  for (int first = of_keyframes; first < blocks; first += 3) addPrior(first, noise.correctionWeights());
 
   std::vector<Block> covariances;
   std::vector<PointEquations> equations;

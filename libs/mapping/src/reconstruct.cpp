@@ -18,8 +18,13 @@ constexpr double gate = 3.72;          // standard deviations that hold 99.9 % o
 constexpr double nearest_scene = 0.3;  // m from a camera
 constexpr double usual_depth = 2;      // m, to judge matches whose depth is not known yet
 constexpr double usual_spread = 0.25;  // rad that the views of a track differ from their mean
-// Share of the given uncertainty of poses and mounts that is left in each round.
-constexpr double rounds[] = {1, 0.2, 0};
+/// Before the last, a round need not be exact: the next has other tracks.
+struct Round {
+  double share = 0;      ///< of the given uncertainty of poses and mounts, that is left
+  double tolerance = 0;  ///< of the adjustment
+};
+constexpr Round rounds[] = {{1, 1e-3}, {0.2, 1e-3}, {0, 1e-4}};
+constexpr double last_tolerance = 1e-6;
 
 struct MatchedPair {
   int first = 0;
@@ -166,11 +171,12 @@ double poseDeviation(const Reconstruction& scene, const MapBuilderOptions& optio
 }
 
 /// Moves the scene, and learns what errors the measurements have, by themselves and together.
-void adjustAndJudge(Reconstruction& scene, ReconstructionResult& result, const MapBuilderOptions& options) {
+void adjustAndJudge(Reconstruction& scene, ReconstructionResult& result, const MapBuilderOptions& options,
+                    double tolerance) {
   AdjustmentNoise noise = result.noise;
   noise.position /= result.next_shared_error;
   noise.heading /= result.next_shared_error;
-  adjust(scene, noise);
+  adjust(scene, noise, tolerance);
   result.noise.measurement = estimatedNoise(scene, noise.measurement);
   result.shared_error = result.next_shared_error;
   result.next_shared_error = std::max(1.0, result.shared_error * poseDeviation(scene, options));
@@ -204,17 +210,17 @@ ReconstructionResult reconstruct(Reconstruction& scene, const MapBuilderOptions&
   const bool has_depth = std::ranges::any_of(scene.depths, [](const auto& depths) { return !depths.empty(); });
   const int min_track_length = has_depth ? 2 : min_observations;
   double done = 0;
-  for (double share : rounds) {
+  for (const auto& [share, tolerance] : rounds) {
     progress("adjusting", done++ / std::ssize(rounds));
     const PoseUncertainty poses = uncertainty(options, share);
     std::vector<Track> tracks =
         joinTracks(featureCounts(scene), consistentMatches(scene, pairs, poses, noise.pixel), min_track_length);
     result.tracks = {.seen = static_cast<int>(tracks.size())};
     placeTracks(scene, std::move(tracks), poses, noise, result.tracks);
-    adjustAndJudge(scene, result, options);
+    adjustAndJudge(scene, result, options, tolerance);
   }
   placeTracks(scene, tracksOf(std::move(scene.points)), {}, noise, result.tracks);
-  adjustAndJudge(scene, result, options);
+  adjustAndJudge(scene, result, options, last_tolerance);
   addPointsSeenOnce(scene, noise, result.tracks);
   return result;
 }

@@ -9,11 +9,8 @@ CameraCalibration Reconstruction::calibration(int camera) const {
   const CameraCorrection& correction = corrections[i];
   corrected.pinhole.fx *= 1 + correction.lens[0];
   corrected.pinhole.fy *= 1 + correction.lens[0];
-  corrected.pinhole.cx += correction.lens[1];
-  corrected.pinhole.cy += correction.lens[2];
-  corrected.distortion[0] += correction.radial[0];
-  corrected.distortion[1] += correction.radial[1];
-  corrected.distortion[4] += correction.radial[2];
+  corrected.distortion[0] += correction.lens[1];
+  corrected.distortion[1] += correction.lens[2];
   return corrected;
 }
 

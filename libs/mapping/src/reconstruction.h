@@ -23,11 +23,10 @@ struct ScenePoint {
 };
 
 /// Rotation by roll, pitch and yaw about the fixed x, y and z axis in this order.
-template <typename T>
-Eigen::Matrix<T, 3, 3> rotationFromRollPitchYaw(const Eigen::Matrix<T, 3, 1>& angles) {
-  using Axes = Eigen::Matrix<T, 3, 1>;
-  return (Eigen::AngleAxis<T>(angles.z(), Axes::UnitZ()) * Eigen::AngleAxis<T>(angles.y(), Axes::UnitY()) *
-          Eigen::AngleAxis<T>(angles.x(), Axes::UnitX()))
+inline Eigen::Matrix3d rotationFromRollPitchYaw(const Eigen::Vector3d& angles) {
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  return (AngleAxisd(angles.z(), Vector3d::UnitZ()) * AngleAxisd(angles.y(), Vector3d::UnitY()) *
+          AngleAxisd(angles.x(), Vector3d::UnitX()))
       .toRotationMatrix();
 }
 
@@ -36,9 +35,8 @@ struct CameraCorrection {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw about the robot axes (rad)
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< along the robot axes (m); z stays 0: driving on flat ground
                                                        ///< does not show it
-  Eigen::Vector3d lens = Eigen::Vector3d::Zero();      ///< relative change of the focal lengths; shift of the principal
-                                                       ///< point (px), which stays 0: it looks like a turn of the mount
-  Eigen::Vector3d radial = Eigen::Vector3d::Zero();    ///< change of k1, k2 and k3; that of k3 stays 0
+  Eigen::Vector3d lens = Eigen::Vector3d::Zero();  ///< relative change of the focal lengths, change of k1 and of k2;
+                                                   ///< the principal point looks like a turn of the mount
 };
 
 /// What the builder knows of the scene and of where its keyframes were taken.
@@ -65,7 +63,7 @@ struct Reconstruction {
   Rigid3 pose(int keyframe) const {
     const auto k = static_cast<std::size_t>(keyframe);
     Rigid3 ground_from_level = Rigid3::Identity();
-    ground_from_level.linear() = rotationFromRollPitchYaw<double>({stance[k].x(), stance[k].y(), 0});
+    ground_from_level.linear() = rotationFromRollPitchYaw({stance[k].x(), stance[k].y(), 0});
     ground_from_level.translation().z() = stance[k].z();
     return toRigid3(map_from_robot[k]) * ground_from_level * level_from_robot[k];
   }
