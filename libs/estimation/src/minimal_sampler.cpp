@@ -85,10 +85,10 @@ double MinimalSampler::sampleCount(Solver kind) const {
 
 double MinimalSampler::chanceOfInliers(Solver kind, const std::vector<int>& inliers) const {
   const bool by_odds = drawsByOdds(kind);
+  std::vector<char> is_inlier(rays_.size());  // by match: each has a ray
+  for (const int match : inliers) is_inlier[std::size_t(match)] = true;
+  const auto isInlier = [&](std::size_t ray) { return is_inlier[std::size_t(match_of_ray_[ray])]; };
   double any = 0, deep = 0;
-  const auto isInlier = [&](std::size_t ray) {
-    return std::binary_search(inliers.begin(), inliers.end(), match_of_ray_[ray]);
-  };
   for (std::size_t i = 0; i < rays_.size(); ++i)
     if (isInlier(i)) any += (by_odds ? ray_chances_.share(i) : 1.0 / static_cast<double>(rays_.size()));
   for (std::size_t i = 0; i < with_depth_.size(); ++i)

@@ -14,7 +14,8 @@ namespace {
 double steepness(const Eigen::Vector3d& direction) {
   constexpr double horizon = 0.01;  // slope up to which the scale is linear
   constexpr double zenith = 1e-6;   // nearer to it the scale ends
-  return direction.z() / (horizon * std::hypot(direction.head<2>().norm(), zenith * direction.norm()));
+  const double across2 = direction.head<2>().squaredNorm() + zenith * zenith * direction.squaredNorm();
+  return direction.z() / (horizon * std::sqrt(across2));
 }
 
 /// A match as its elevation in the query image, less that in the reference image.
@@ -31,9 +32,9 @@ ElevationChange elevationChange(const PoseProblem& problem, const Match& match) 
   };
   const double here = at(match.query_pixel);
   const double there = steepness(reference.map_from_camera.linear() * reference.camera.ray(match.reference_pixel));
-  const double rate = std::hypot(at(match.query_pixel + Eigen::Vector2d::UnitX()) - here,
-                                 at(match.query_pixel + Eigen::Vector2d::UnitY()) - here) /
-                      std::hypot(1, here);
+  const Eigen::Vector2d slope(at(match.query_pixel + Eigen::Vector2d::UnitX()) - here,
+                              at(match.query_pixel + Eigen::Vector2d::UnitY()) - here);
+  const double rate = slope.norm() / std::sqrt(1 + here * here);
   return {std::asinh(here) - std::asinh(there), rate * query.camera.height};
 }
 

@@ -29,7 +29,7 @@ class Climb {
     expected_gain_ = 0.5 * step.dot(slope.gradient);
     const double c = std::cos(step[2]), s = std::sin(step[2]);
     const PlanarTransform moved(pose.c * c - pose.s * s, pose.s * c + pose.c * s, pose.x + step[0], pose.y + step[1]);
-    const double norm = std::hypot(moved.c, moved.s);
+    const double norm = std::sqrt(moved.c * moved.c + moved.s * moved.s);
     return {moved.c / norm, moved.s / norm, moved.x, moved.y};
   }
 
