@@ -89,6 +89,8 @@ double firstCoveredTime(const std::filesystem::path& rawlog, const Trajectory& g
     if (!first) first = time;
     last = time;
   }
+  if (!first && begin && skipped > 0)
+    throw std::runtime_error(rawlog.string() + ": ends before the " + std::to_string(skipped) + " s to leave out");
   throw std::runtime_error(rawlog.string() + ": " +
                            (first ? coversNothing(ground_truth, *first, *last) : "holds no observation with a time"));
 }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <stdexcept>
+
+#include "option_range.h"
 
 namespace vmcl {
 
@@ -14,12 +14,9 @@ std::string_view nameOf(LocalizationStatus status) {
 }
 
 void HealthOptions::check() const {
-  const auto demand = [](bool valid, const char* key) {
-    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
-  };
-  demand(degraded_after > 0 && std::isfinite(degraded_after), "degraded_after");
-  demand(lost_after >= 1, "lost_after");
-  demand(lost_reset_after >= 0 && std::isfinite(lost_reset_after), "lost_reset_after");
+  demandPositive("degraded_after", degraded_after);
+  demand(lost_after >= 1, "lost_after", lost_after, "at least 1");
+  demandNotNegative("lost_reset_after", lost_reset_after);
 }
 
 void UpdateEvidence::count(Verdict verdict) {

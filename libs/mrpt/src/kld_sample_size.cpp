@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/kld_sample_size.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/distributions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "option_range.h"
 
 namespace vmcl {
 namespace {
@@ -20,16 +22,17 @@ long binOf(double coordinate, double size) {
 
 KldSampleSize::KldSampleSize(const mrpt::slam::TKLDParams& options)
     : options_(options), needed_(options.KLD_minSampleSize) {
-  const auto demand = [](bool valid, const char* key) {
-    if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
+  const auto demandSize = [](const char* key, std::size_t size, std::size_t least) {
+    demand(size >= least && size <= most_particles, key, size,
+           "in [" + std::to_string(least) + ", " + std::to_string(most_particles) + "]");
   };
-  demand(options.KLD_minSampleSize >= 1 && options.KLD_minSampleSize <= most_particles, "KLD_minSampleSize");
-  demand(options.KLD_maxSampleSize >= options.KLD_minSampleSize && options.KLD_maxSampleSize <= most_particles,
-         "KLD_maxSampleSize");
-  demand(options.KLD_binSize_XY > 0 && std::isfinite(options.KLD_binSize_XY), "KLD_binSize_XY");
-  demand(options.KLD_binSize_PHI > 0 && std::isfinite(options.KLD_binSize_PHI), "KLD_binSize_PHI_deg");
-  demand(options.KLD_delta > 0 && options.KLD_delta < 1, "KLD_delta");
-  demand(options.KLD_epsilon > 0 && options.KLD_epsilon < 1, "KLD_epsilon");
+  const auto demandPart = [](const char* key, double part) { demand(part > 0 && part < 1, key, part, "in (0, 1)"); };
+  demandSize("KLD_minSampleSize", options.KLD_minSampleSize, 1);
+  demandSize("KLD_maxSampleSize", options.KLD_maxSampleSize, options.KLD_minSampleSize);
+  demandPositive("KLD_binSize_XY", options.KLD_binSize_XY);
+  demandPositive("KLD_binSize_PHI_deg", mrpt::RAD2DEG(options.KLD_binSize_PHI));
+  demandPart("KLD_delta", options.KLD_delta);
+  demandPart("KLD_epsilon", options.KLD_epsilon);
   quantile_ = mrpt::math::normalQuantile(1 - options.KLD_delta);
 }
 

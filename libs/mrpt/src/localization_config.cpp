@@ -153,7 +153,9 @@ void readExperiment(const CConfigFileMemory& ini, const fs::path& ini_file, Loca
 void readStart(const CConfigFileMemory& ini, LocalizationConfig& config) {
   IniSection section(ini, "LocalizationExperiment");
   if (!section.has("init_PDF_mode")) {
-    if (!hasAmclSection(ini)) section.fail("init_PDF_mode", "is missing");
+    if (!hasAmclSection(ini))
+      section.fail("init_PDF_mode",
+                   "is missing: 0 starts anywhere free in the grid map, 1 in the box init_PDF_min_x ...");
     config.start_anywhere = true;
     return;
   }

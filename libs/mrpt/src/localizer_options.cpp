@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/localizer_options.h"
 
-#include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "option_range.h"
 #include "vmcl/mrpt/kld_sample_size.h"
 
 namespace vmcl {
-namespace {
-
-void demand(bool valid, const char* key) {
-  if (!valid) throw std::invalid_argument(std::string(key) + ": value out of range");
-}
-
-}  // namespace
-
 void LocalizedRule::check() const {
-  demand(max_position_deviation > 0 && std::isfinite(max_position_deviation), "max_position_deviation");
-  demand(max_heading_deviation > 0 && std::isfinite(max_heading_deviation), "max_heading_deviation_deg");
-  demand(min_share > 0 && min_share <= 1, "min_share");
-  demand(min_frames >= 1, "min_frames");
+  demandPositive("max_position_deviation", max_position_deviation);
+  demandPositive("max_heading_deviation_deg", max_heading_deviation / degree);
+  demand(min_share > 0 && min_share <= 1, "min_share", min_share, "in (0, 1]");
+  demand(min_frames >= 1, "min_frames", min_frames, "at least 1");
 }
 
 LocalizerOptions LocalizerOptions::amcl() {
@@ -40,9 +31,10 @@ LocalizerOptions LocalizerOptions::amcl() {
 }
 
 void LocalizerOptions::check() const {
-  demand(particles_count >= 1 && particles_count <= KldSampleSize::most_particles, "particles_count");
-  demand(update_min_d >= 0 && std::isfinite(update_min_d), "update_min_d");
-  demand(update_min_a >= 0 && std::isfinite(update_min_a), "update_min_a");
+  demand(particles_count >= 1 && particles_count <= KldSampleSize::most_particles, "particles_count", particles_count,
+         "in [1, " + std::to_string(KldSampleSize::most_particles) + "]");
+  demandNotNegative("update_min_d", update_min_d);
+  demandNotNegative("update_min_a", update_min_a);
   KldSampleSize{kld};
   PlanarMonteCarlo::check(filter);
   monte_carlo.check();

@@ -2,9 +2,9 @@
 #include "vmcl/mrpt/odometry_motion_model.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <utility>
+
+#include "option_range.h"
 
 namespace vmcl {
 namespace {
@@ -44,8 +44,7 @@ PlanarPose drawOmnidirectional(const OdometryMotionModel& model, const PlanarPos
 void OdometryMotionModel::check() const {
   for (const auto& [name, alpha] :
        {std::pair{"alpha1", alpha1}, {"alpha2", alpha2}, {"alpha3", alpha3}, {"alpha4", alpha4}, {"alpha5", alpha5}})
-    if (!(alpha >= 0 && alpha <= 100))
-      throw std::invalid_argument(std::string(name) + " = " + std::to_string(alpha) + " is not in [0, 100]");
+    demand(alpha >= 0 && alpha <= 100, name, alpha, "in [0, 100]");
 }
 
 PlanarPose OdometryMotionModel::draw(const PlanarPose& movement, Random& random) const {

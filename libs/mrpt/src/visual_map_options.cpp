@@ -3,9 +3,9 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <stdexcept>
 
+#include "option_range.h"
 #include "vmcl/mrpt/ini_section.h"
 
 namespace vmcl {
@@ -53,14 +53,9 @@ std::string textOf(Number value) {
 }  // namespace
 
 void VisualMapOptions::check() const {
-  const auto demand = [](const char* key, double value) {
-    if (!(value > 0) || !std::isfinite(value))
-      throw std::invalid_argument(std::string(key) + " = " + std::to_string(value) + " is not positive");
-  };
-  demand("particle_sigma_px", particle_sigma_px);
-  if (!(match_correlation >= 0 && match_correlation <= 1))
-    throw std::invalid_argument("match_correlation = " + std::to_string(match_correlation) + " is not in [0, 1]");
-  if (max_matches < 0) throw std::invalid_argument("max_matches = " + std::to_string(max_matches) + " is negative");
+  demandPositive("particle_sigma_px", particle_sigma_px);
+  demand(match_correlation >= 0 && match_correlation <= 1, "match_correlation", match_correlation, "in [0, 1]");
+  demand(max_matches >= 0, "max_matches", max_matches, "at least 0");
   FeatureOptions().choose(features);
   relocalizer.check();
   builder.check();
