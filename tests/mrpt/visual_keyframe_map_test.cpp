@@ -179,6 +179,20 @@ TEST_F(VisualKeyframeMapTest, AMapThatCannotBeBuiltSaysNothing) {
   EXPECT_EQ(logLikelihood(map, blank, truth_), 0);
 }
 
+TEST_F(VisualKeyframeMapTest, IsReadyBeforeTheFirstImageOrSaysWhyNot) {
+  EXPECT_TRUE(VisualKeyframeMap({}, content_).prepare());
+  EXPECT_FALSE(VisualKeyframeMap().prepare());
+  VisualMapOptions dense;
+  dense.relocalizer.setting = MatchSetting::dcsd;
+  KeyframeMap sparse = *content_;
+  for (Keyframe& keyframe : sparse.keyframes) keyframe.dense = {};
+  EXPECT_THROW(VisualKeyframeMap(dense, std::make_shared<KeyframeMap>(sparse)).prepare(), std::invalid_argument);
+  KeyframeMap of_network = *content_;
+  of_network.feature_options.kind = FeatureKind::network;
+  of_network.feature_options.model.file = "/nowhere/features.onnx";
+  EXPECT_THROW(VisualKeyframeMap({}, std::make_shared<KeyframeMap>(of_network)).prepare(), std::exception);
+}
+
 #ifndef __SANITIZE_ADDRESS__  // which needs the address space that the test takes away
 TEST_F(VisualKeyframeMapTest, DoesWithoutThreadsWhereThereAreNone) {
   const VisualKeyframeMap map({}, content_);

@@ -31,10 +31,20 @@ void fillFromFile(CMultiMetricMap& maps, const std::filesystem::path& file) {
   }
 }
 
-void refuseEmptyVisualMaps(const CMultiMetricMap& maps) {
-  for (const auto& map : maps.maps)
-    if (const auto* visual = dynamic_cast<const VisualKeyframeMap*>(map.get()); visual && !visual->content())
-      throw std::runtime_error("the visual map is empty: it has no map_file, and the simplemap has no images");
+/// Errors name the map's file, or the one that should have filled it.
+void prepareVisualMaps(const CMultiMetricMap& maps, const std::filesystem::path& filled_by) {
+  for (const auto& map : maps.maps) {
+    const auto* visual = dynamic_cast<const VisualKeyframeMap*>(map.get());
+    if (visual == nullptr) continue;
+    const std::string file =
+        visual->visualOptions().map_file.empty() ? filled_by.string() : visual->visualOptions().map_file;
+    try {
+      if (!visual->prepare())
+        throw std::runtime_error("the visual map is empty: it has no map_file, and the simplemap has no images");
+    } catch (const std::exception& error) {
+      throw std::runtime_error(file + ": " + errorMessage(error));
+    }
+  }
 }
 
 }  // namespace
@@ -52,12 +62,7 @@ CMultiMetricMap::Ptr loadMaps(const LocalizationConfig& config) {
     throw std::runtime_error(config.ini_file.string() +
                              ": [MetricMap] occupancyGrid_count = 1, but no .simplemap or .gridmap is given");
   }
-  try {
-    refuseEmptyVisualMaps(*maps);
-  } catch (const std::exception& error) {
-    const auto& file = config.map_file.empty() ? config.ini_file : config.map_file;
-    throw std::runtime_error(file.string() + ": " + errorMessage(error));
-  }
+  prepareVisualMaps(*maps, config.map_file.empty() ? config.ini_file : config.map_file);
   return maps;
 }
 

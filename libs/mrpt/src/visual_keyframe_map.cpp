@@ -84,16 +84,18 @@ struct VisualKeyframeMap::State {
   }
 
   /// Null when the map is empty.
+  std::shared_ptr<ImageMeasurements> ready(const VisualMapOptions& options) {
+    const std::scoped_lock lock(mutex);
+    if (!built(options)) return nullptr;
+    if (!measurements) measurements = std::make_shared<ImageMeasurements>(content, options);
+    return measurements;
+  }
+
+  /// Null when the map is empty.
   std::shared_ptr<const ImageMeasurement> measurement(const mrpt::obs::CObservation& observation,
                                                       const VisualMapOptions& options) {
-    std::shared_ptr<ImageMeasurements> ready;
-    {
-      const std::scoped_lock lock(mutex);
-      if (!built(options)) return nullptr;
-      if (!measurements) measurements = std::make_shared<ImageMeasurements>(content, options);
-      ready = measurements;
-    }
-    return ready->of(observation);
+    const auto of_images = ready(options);
+    return of_images ? of_images->of(observation) : nullptr;
   }
 };
 
@@ -132,6 +134,8 @@ std::shared_ptr<const KeyframeMap> VisualKeyframeMap::content() const {
   const std::scoped_lock lock(state_->mutex);
   return state_->built(options_);
 }
+
+bool VisualKeyframeMap::prepare() const { return state_->ready(options_) != nullptr; }
 
 std::shared_ptr<const KeyframeMap> VisualKeyframeMap::contentOrReport() const try {
   return content();

@@ -41,6 +41,9 @@ class VisualKeyframeMap : public mrpt::maps::CMetricMap, public RelocalizingMap 
   /// The content, built from the inserted images where need be; null when there is none. Throws std::runtime_error when
   /// it cannot be built.
   std::shared_ptr<const KeyframeMap> content() const;
+  /// Gets ready for the first image, which does it otherwise; false when the map is empty. Throws std::exception for
+  /// content that cannot be built or does not suit the options, and for networks that cannot be read.
+  bool prepare() const;
   const VisualMapOptions& visualOptions() const { return options_; }
 
   double addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
