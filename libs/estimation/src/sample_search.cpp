@@ -32,7 +32,8 @@ std::vector<Solver> kindsToDraw(const MinimalSampler& sampler, Solver wanted) {
   return kinds;
 }
 
-/// RANSAC whose kinds of samples each go on until one without outliers is all but certain, by the best pose so far.
+/// RANSAC that draws as many samples of each kind, until one without outliers is all but certain, by the best pose so
+/// far.
 class Search {
  public:
   Search(const PoseProblem& problem, const PoseLikelihood& likelihood, const EstimatorOptions& options)
@@ -40,17 +41,15 @@ class Search {
         likelihood_(likelihood),
         refiner_(likelihood, {}) {
     for (const Solver solver : kindsToDraw(sampler_, options.solver)) kinds_.push_back({solver});
-    if (kinds_.size() > 1) at_first_ = std::clamp(options.iterations / static_cast<int>(kinds_.size()), 1, at_first_);
-    int left = options.iterations;
-    for (bool drew = !kinds_.empty(); drew && left > 0;) {
-      drew = false;
-      for (Kind& kind : kinds_) {
-        const int wanted = std::min(samplesWanted(kind), left);
-        if (wanted <= 0) continue;
-        draw(kind, wanted);
-        left -= wanted;
-        drew = true;
-      }
+    if (kinds_.empty()) return;
+    constexpr int at_first = 64;  // samples of each kind before any rule
+    int left = options.iterations, drawn = 1;
+    for (int each = std::clamp(left / static_cast<int>(kinds_.size()), 1, at_first); each > 0 && drawn > 0;
+         each = moreOfEach()) {
+      drawn = 0;
+      for (Kind& kind : kinds_) drawn += draw(kind, std::min(each, left - drawn));
+      left -= drawn;
+      of_each_ += each;
     }
   }
 
@@ -71,15 +70,22 @@ class Search {
     int drawn = 0;
   };
 
-  /// As many more as RANSAC's rule asks, but no more than double what was drawn, nor than there are.
-  int samplesWanted(const Kind& kind) const {
-    const double left = sampler_.sampleCount(kind.solver) - kind.drawn;
-    if (kind.drawn == 0) return static_cast<int>(std::min(left, 1.0 * at_first_));
-    const double chance = sampler_.chanceOfInliers(kind.solver, inliers_);
-    return static_cast<int>(std::min({samplesNeeded(chance) - kind.drawn, 1.0 * kind.drawn, left}));
+  int samplesLeft(const Kind& kind) const {
+    constexpr double many = std::numeric_limits<int>::max();
+    return static_cast<int>(std::min(sampler_.sampleCount(kind.solver) - kind.drawn, many));
   }
 
-  void draw(Kind& kind, int count) {
+  /// As many more as RANSAC's rule asks, but no more than double what was drawn. Kinds that are used up do not count.
+  int moreOfEach() const {
+    double chance_of_none = 1;
+    for (const Kind& kind : kinds_)
+      if (samplesLeft(kind) > 0) chance_of_none *= 1 - sampler_.chanceOfInliers(kind.solver, inliers_);
+    return static_cast<int>(std::min(samplesNeeded(1 - chance_of_none) - of_each_, 1.0 * of_each_));
+  }
+
+  /// So many samples, or all that are left; returns how many.
+  int draw(Kind& kind, int count) {
+    count = std::min(count, samplesLeft(kind));
     std::vector<PlanarTransform> poses;
     sampler_.draw(kind.solver, count, poses);
     std::erase_if(poses, [](const PlanarTransform& pose) {
@@ -97,13 +103,14 @@ class Search {
     for (const PlanarTransform& pose : poses) hypotheses_.push_back({pose, kind.solver});
     scores_.insert(scores_.end(), scores.begin(), scores.end());
     kind.drawn += count;
+    return count;
   }
 
   MinimalSampler sampler_;
   const PoseLikelihood& likelihood_;
   PoseRefiner refiner_;
   std::vector<Kind> kinds_;
-  int at_first_ = 64;  ///< samples of each kind before any rule
+  int of_each_ = 0;  ///< samples drawn of each kind, where there are so many
   std::vector<Hypothesis> hypotheses_;
   std::vector<double> scores_;
   double best_score_ = -std::numeric_limits<double>::infinity();
