@@ -153,6 +153,20 @@ class SelectorTest(CommandTest):
         self.assertEqual(len(trained.stderr.splitlines()), 1)
         self.assertFalse(self.path('net.onnx').exists())
 
+    @unittest.skipUnless(PYTHON, 'python3-torch and python3-torchvision are not here')
+    def test_how_far_images_of_a_keyframe_agree(self):
+        def trials(answers):
+            lines = [f'{keyframe},{better}' for keyframe, better in answers]
+            self.write('tried/trials.csv', '\n'.join(['keyframe,better', *lines]) + '\n')
+            return self.run_python(SELECTOR / 'agreement.py', 'tried')
+        of_keyframe = trials([(k, ('1p1dp', '2dp')[k % 2]) for k in range(10) for _ in range(4)] + [(10, '')])
+        self.assertEqual(of_keyframe.returncode, DONE, of_keyframe.stderr)
+        self.assertIn('alike: 100.0 %; shuffled: 4', of_keyframe.stdout)  # 19 of 39 others, 48.7 %
+        of_image = trials([(k, better) for k in range(10) for better in ('1p1dp', '2dp', '2dp')])
+        self.assertIn('alike: 33.3 %', of_image.stdout)
+        alone = trials([(1, '2dp'), (2, '2dp'), (3, '')])
+        self.assertEqual((alone.returncode, len(alone.stderr.splitlines())), (FAILED, 1), alone.stderr)
+
 
 if __name__ == '__main__':
     main()
