@@ -2,6 +2,7 @@
 #include "posed_images.h"
 
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <stdexcept>
 
@@ -27,11 +28,11 @@ std::string PosedImages::maskWithoutCamera() const {
   return {};
 }
 
-int PosedImages::cameraOf(const CameraObservation& seen) {
+int PosedImages::cameraOf(const CameraObservation& seen, DepthSource depth) {
   const auto [entry, is_new] = camera_of_label_.try_emplace(seen.label, 0, seen.calibration);
   if (is_new)
     entry->second.first =
-        builder_.addCamera({seen.label, seen.calibration, seen.robot_from_camera, 0, maskOf(seen.label)});
+        builder_.addCamera({seen.label, seen.calibration, seen.robot_from_camera, 0, maskOf(seen.label), depth});
   if (!sameCalibration(entry->second.second, seen.calibration))
     throw std::runtime_error("camera '" + seen.label + "': other intrinsics than in its first image");
   return entry->second.first;
@@ -47,7 +48,10 @@ void PosedImages::offer(const std::filesystem::path& file, const mrpt::obs::CObs
     ++images_without_pose_;
     return;
   }
-  builder_.add(seen->time, cameraOf(*seen), *map_from_robot, seen->image.view(),
+  const bool is_stereo = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation) != nullptr;
+  const int camera = cameraOf(*seen, is_stereo ? DepthSource::stereo : DepthSource::none);
+  if (!builder_.isNewKeyframe(seen->time, camera, *map_from_robot)) return;
+  builder_.add(seen->time, camera, *map_from_robot, seen->image.view(),
                measuredDepth(observation, rawlogCompanion(file, "_Images")));
 } catch (const std::exception& error) {
   problems_.add(file.string() + ": " + errorMessage(error));

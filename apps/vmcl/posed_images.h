@@ -41,7 +41,8 @@ class PosedImages {
  private:
   void offer(const std::filesystem::path& file, const mrpt::obs::CObservation& observation,
              const std::function<std::optional<Rigid3>(double)>& pose_at);
-  int cameraOf(const struct CameraObservation& seen);
+  /// `depth`: what is beside it, where the builder cannot tell.
+  int cameraOf(const struct CameraObservation& seen, DepthSource depth);
 
   Image maskOf(const std::string& label) const;
 

@@ -122,6 +122,16 @@ TEST_F(SimulationSetupTest, aStereoCameraIsTwo) {
   EXPECT_TRUE(left.depth && !right.depth);
 }
 
+TEST_F(SimulationSetupTest, theImagesOfAStereoCameraMayBeJoined) {
+  const SimulationSetup setup = read("fov_deg: 90", "fov_deg: 90, stereo_baseline: 0.1, stereo: true");
+  ASSERT_EQ(setup.robot.cameras.size(), 1u);
+  EXPECT_EQ(setup.robot.cameras[0].label, "camera");
+  EXPECT_EQ(setup.robot.cameras[0].stereo_baseline, 0.1);
+  expectFailure("fov_deg: 90", "fov_deg: 90, stereo: true", "stereo needs a stereo_baseline");
+  expectFailure("fov_deg: 90", "fov_deg: 90, stereo_baseline: 0.1, stereo: true, depth: {max_range: 4}",
+                "stereo is for cameras without depth");
+}
+
 TEST_F(SimulationSetupTest, aFileWithoutRobotAndSessionsIsExplored) {
   std::ofstream(file()) << "floors: [{from: [0, 0], to: [4, 3], cover: {material: planks}}]\n";
   const SimulationSetup setup = readSimulationSetup(file(), "");

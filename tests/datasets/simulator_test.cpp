@@ -5,15 +5,19 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "one_room.h"
 #include "scratch_directory.h"
 #include "simulation/simulation_setup.h"
 #include "vmcl/datasets/rawlog_reader.h"
+#include "vmcl/datasets/rawlog_writer.h"
 #include "vmcl/geometry/trajectory.h"
 #include "vmcl/mrpt/camera_observation.h"
+#include "vmcl/mrpt/measured_depth.h"
 
 namespace vmcl {
 namespace {
@@ -21,6 +25,24 @@ namespace {
 class SimulatorTest : public testing::Test {
  protected:
   SimulatorTest() { std::ofstream(scene()) << one_room_scene; }
+
+  /// Gives the camera more.
+  void equip(const std::string& with) const {
+    std::string text = one_room_scene;
+    const std::string camera = "width: 160, height: 120, ";
+    text.replace(text.find(camera), camera.size(), "width: 320, height: 240, " + with);
+    std::ofstream(scene()) << text;
+  }
+
+  /// Of all images of a log.
+  std::vector<DepthImage> depthsOf(const std::string& name) const {
+    std::vector<DepthImage> depths;
+    RawlogReader reader(log(name));
+    for (RawlogEntry entry; reader.next(entry);)
+      if (cameraObservation(*entry.observation))
+        depths.push_back(measuredDepth(*entry.observation, rawlogCompanion(log(name), "_Images")));
+    return depths;
+  }
 
   std::filesystem::path scene() const { return scratch_.path() / "scene.yaml"; }
   std::filesystem::path log(const std::string& name) const { return scratch_.path() / (name + ".rawlog"); }
@@ -137,6 +159,30 @@ TEST_F(SimulatorTest, theSimplemapHoldsTruePosesImagesAndScans) {
     EXPECT_NEAR(pose->getMeanVal().y(), expected.y, 1e-3);
     EXPECT_NEAR(pose->getMeanVal().yaw(), expected.phi, 1e-3);
   }
+}
+
+// Half of the disparities are within half a pixel on these walls of little texture: 0.5 px over 160 px of focal length
+// and 0.15 m of baseline are the inverse depth.
+TEST_F(SimulatorTest, aStereoCameraMeasuresWhatADepthCameraDoes) {
+  equip("depth: {max_range: 8, sigma: 0}, ");
+  if (!simulated("a", 3)) GTEST_SKIP() << "no off-screen rendering on this host";
+  equip("stereo_baseline: 0.15, stereo: true, ");
+  ASSERT_TRUE(simulated("b", 3));
+  const std::vector<DepthImage> truth = depthsOf("a"), measured = depthsOf("b");
+  ASSERT_EQ(truth.size(), measured.size());
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    for (std::size_t pixel = 0; pixel < truth[i].depths.size(); ++pixel)
+      if (truth[i].depths[pixel] > 0 && measured[i].depths[pixel] > 0)
+        errors.push_back(std::abs(1.0 / double{truth[i].depths[pixel]} - 1.0 / double{measured[i].depths[pixel]}));
+  ASSERT_GT(errors.size(), truth.size() * 320 * 240 / 4);
+  std::ranges::nth_element(errors, errors.begin() + std::ssize(errors) / 2);
+  EXPECT_LT(errors[errors.size() / 2], 0.5 / (160 * 0.15));
+  mrpt::maps::CSimpleMap map;
+  ASSERT_TRUE(map.loadFromFile(simplemap("b")));
+  const auto pair = map.begin()->sf->getObservationByClass<mrpt::obs::CObservationStereoImages>();
+  ASSERT_TRUE(pair);
+  EXPECT_FALSE(measuredDepth(*pair, {}).empty());
 }
 
 TEST_F(SimulatorTest, namesWhatIsWrong) {

@@ -35,6 +35,8 @@ TEST(MapBuilder, KeyframesAreTakenByMotionOfEachCamera) {
   EXPECT_TRUE(builder.add(0, 0, toRigid3({0, 0, 0}), features));
   EXPECT_TRUE(builder.add(0, 1, toRigid3({0, 0, 0}), features));
   EXPECT_FALSE(builder.add(1, 0, toRigid3({0.09, 0, 0.19}), features));
+  EXPECT_FALSE(builder.isNewKeyframe(1, 0, toRigid3({0.09, 0, 0.19})));
+  EXPECT_TRUE(builder.isNewKeyframe(2, 0, toRigid3({0.11, 0, 0})));
   EXPECT_TRUE(builder.add(2, 0, toRigid3({0.11, 0, 0}), features));
   EXPECT_TRUE(builder.add(3, 0, toRigid3({0.11, 0, -0.21}), features));
   EXPECT_TRUE(builder.add(4, 0, toRigid3({0.11, 0, std::numbers::pi - 0.01}), features));

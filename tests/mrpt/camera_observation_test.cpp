@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -100,6 +101,19 @@ TEST(CameraObservation, readsTheIntensityImageOfADepthCamera) {
   const Eigen::Vector3d ahead = camera->robot_from_camera * Eigen::Vector3d(0, 0, 1);
   EXPECT_TRUE(ahead.isApprox(Eigen::Vector3d(1, 0, 0.5), 1e-9)) << ahead.transpose();
   EXPECT_EQ(camera->image.pixels[7], 255);
+}
+
+TEST(CameraObservation, readsTheLeftImageOfAStereoCamera) {
+  mrpt::obs::CObservationStereoImages observation;
+  observation.timestamp = mrpt::Clock::fromDouble(1234.5);
+  observation.imageLeft = halves();
+  observation.leftCamera = camera8x6();
+  observation.cameraPose = mrpt::poses::CPose3DQuat(observation8x6().cameraPose);
+  const auto camera = cameraObservation(observation), left = cameraObservation(observation8x6());
+  ASSERT_TRUE(camera);
+  EXPECT_TRUE(sameCalibration(camera->calibration, left->calibration));
+  EXPECT_EQ(camera->image.pixels, left->image.pixels);
+  EXPECT_TRUE(camera->robot_from_camera.isApprox(left->robot_from_camera, 1e-9));
 }
 
 TEST(CameraObservation, readsAnImageKeptOutsideAndLeavesTheObservationUnloaded) {

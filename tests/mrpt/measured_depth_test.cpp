@@ -2,8 +2,10 @@
 #include "vmcl/mrpt/measured_depth.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <unistd.h>
 
 #include <numbers>
@@ -78,6 +80,29 @@ TEST(MeasuredDepth, IsReadFromBesideTheLog) {
   scan.cameraParams.ncols = 8;
   EXPECT_THROW(measuredDepth(scan, folder), std::runtime_error);
   std::filesystem::remove_all(folder);
+}
+
+TEST(MeasuredDepth, OfAStereoCameraIsFromBothImages) {
+  mrpt::obs::CObservationStereoImages pair;
+  pair.sensorLabel = "pair";
+  pair.leftCamera = pair.rightCamera = camera(80, 60, 100);
+  pair.rightCameraPose = mrpt::poses::CPose3DQuat(mrpt::poses::CPose3D(0.1, 0, 0, 0, 0, 0));
+  pair.imageLeft = mrpt::img::CImage(80, 60, mrpt::img::CH_GRAY);
+  pair.imageRight = mrpt::img::CImage(80, 60, mrpt::img::CH_GRAY);
+  uint32_t noise = 1;
+  for (int row = 0; row < 60; ++row)
+    for (int column = 0; column < 90; ++column) {
+      const auto grey = static_cast<uint8_t>((noise = 1664525 * noise + 1013904223) >> 24);
+      if (column < 80) *pair.imageLeft.ptr<uint8_t>(column, row) = grey;
+      if (column >= 5 && column < 85) *pair.imageRight.ptr<uint8_t>(column - 5, row) = grey;
+    }
+  EXPECT_TRUE(measuredDepth(pair, {}).empty());
+  pair.hasImageRight = true;
+  const DepthImage depth = measuredDepth(pair, {});
+  ASSERT_EQ(depth.depths.size(), 80u * 60u);
+  EXPECT_NEAR(depth.depths[30 * 80 + 50], 2, 0.05);  // 100 px * 0.1 m / 5 px
+  pair.rightCameraPose = mrpt::poses::CPose3DQuat();
+  EXPECT_THROW(measuredDepth(pair, {}), std::runtime_error);
 }
 
 TEST(MeasuredDepth, NoneAndBroken) {

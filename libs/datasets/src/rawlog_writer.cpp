@@ -85,6 +85,13 @@ void RawlogWriter::write(mrpt::obs::CObservation3DRangeScan observation, std::st
   write(observation);
 }
 
+void RawlogWriter::write(mrpt::obs::CObservationStereoImages observation, std::string_view left, std::string_view right,
+                         const std::string& extension) {
+  observation.imageLeft.setExternalStorage(keepImage(observation.sensorLabel + "_left", left, extension));
+  observation.imageRight.setExternalStorage(keepImage(observation.sensorLabel + "_right", right, extension));
+  write(observation);
+}
+
 void RawlogWriter::commit() {
   const std::filesystem::path older_images = temporary_images_.string() + ".old";
   std::error_code error, ignored;

@@ -9,7 +9,6 @@ namespace vmcl {
 /// is sane as landmarks (the others are counted in `result`), and how to recognize its places.
 KeyframeMap assembleMap(const Reconstruction& scene, ReconstructionResult& result, const MapBuilderOptions& options);
 
-/// All but the number of frames.
 MapBuildReport reportOf(const KeyframeMap& map, const Reconstruction& scene, const ReconstructionResult& result);
 
 }  // namespace vmcl

@@ -70,7 +70,6 @@ struct MapBuilder::State {
   std::optional<PlaceNetwork> place_network;
   std::vector<Eigen::VectorXf> places;  // as in Reconstruction
   int session = 0;
-  int frames = 0;
 
   bool hasMoved(int camera, const Rigid3& map_from_robot) const {
     const auto& last = last_keyframe[static_cast<std::size_t>(camera)];
@@ -84,19 +83,20 @@ struct MapBuilder::State {
     const std::vector<int> no_landmarks(features.pixels.size(), -1);
     keyframes.push_back({time, camera, session, map_from_robot, std::move(features), no_landmarks});
     if (std::ranges::none_of(measured, [](float depth) { return depth > 0; })) measured.clear();
-    if (!measured.empty()) cameras[static_cast<std::size_t>(camera)].depth = DepthSource::range;
+    if (DepthSource& source = cameras[static_cast<std::size_t>(camera)].depth;
+        !measured.empty() && source == DepthSource::none)
+      source = DepthSource::range;
     depths.push_back(std::move(measured));
     last_keyframe[static_cast<std::size_t>(camera)] = map_from_robot;
   }
 
   /// The pose of a frame worth keeping; nothing for one too near the last keyframe.
-  std::optional<Rigid3> offer(double time, int camera, const Rigid3& map_from_robot) {
+  std::optional<Rigid3> offer(double time, int camera, const Rigid3& map_from_robot) const {
     if (!std::isfinite(time)) throw std::invalid_argument("image time is not finite");
     if (camera < 0 || camera >= std::ssize(cameras))
       throw std::invalid_argument("no camera " + std::to_string(camera) + " in the map");
     if (!map_from_robot.matrix().allFinite()) throw std::invalid_argument("robot pose is not finite");
     const Rigid3 pose = options.flat ? toRigid3(planarPart(map_from_robot)) : map_from_robot;
-    ++frames;
     if (!hasMoved(camera, pose)) return std::nullopt;
     return pose;
   }
@@ -167,6 +167,10 @@ bool MapBuilder::add(double time, int camera, const Rigid3& map_from_robot, Feat
   return true;
 }
 
+bool MapBuilder::isNewKeyframe(double time, int camera, const Rigid3& map_from_robot) const {
+  return state_->offer(time, camera, map_from_robot).has_value();
+}
+
 int MapBuilder::keyframeCount() const { return static_cast<int>(state_->keyframes.size()); }
 
 std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& progress) {
@@ -192,7 +196,6 @@ std::pair<KeyframeMap, MapBuildReport> MapBuilder::build(const BuildProgress& pr
   KeyframeMap map = assembleMap(scene, result, options);
   report_progress("describing places", 1);
   MapBuildReport built = reportOf(map, scene, result);
-  built.frames = state_->frames;
   return {std::move(map), std::move(built)};
 }
 

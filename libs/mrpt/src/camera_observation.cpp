@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/camera_observation.h"
 
-#include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <stdexcept>
 #include <tuple>
 
 #include "camera_calibration.h"
+#include "grey_image.h"
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/pose_conversion.h"
 
 namespace vmcl {
 namespace {
-
-Image greyImage(const mrpt::img::CImage& image) {
-  if (image.isExternallyStored()) return readImage(image.getExternalStorageFileAbsolutePath());
-  if (image.isEmpty()) throw std::runtime_error("no image");
-  if (image.getPixelDepth() != mrpt::img::PixelDepth::D8U) throw std::runtime_error("an image that is not 8 bit");
-  const mrpt::img::CImage grey = image.grayscale();
-  Image out{static_cast<int>(grey.getWidth()), static_cast<int>(grey.getHeight()), {}};
-  out.pixels.reserve(grey.getWidth() * grey.getHeight());
-  for (int row = 0; row < out.height; ++row) {
-    const auto* pixels = grey.ptrLine<uint8_t>(row);
-    out.pixels.insert(out.pixels.end(), pixels, pixels + out.width);
-  }
-  return out;
-}
 
 void checkSize(const Image& image, const PinholeCamera& camera) {
   if (image.width == camera.width && image.height == camera.height) return;
@@ -63,6 +50,8 @@ std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation
     return convert(observation, depth_camera->intensityImage, depth_camera->cameraParamsIntensity,
                    depth_camera->sensorPose + depth_camera->relativePoseIntensityWRTDepth);
   }
+  if (const auto* pair = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation))
+    return convert(observation, pair->imageLeft, pair->leftCamera, mrpt::poses::CPose3D(pair->cameraPose));
   return std::nullopt;
 }
 

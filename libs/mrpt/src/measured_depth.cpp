@@ -3,6 +3,7 @@
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
@@ -11,9 +12,11 @@
 #include <string>
 
 #include "camera_calibration.h"
+#include "grey_image.h"
 #include "vmcl/mrpt/camera_observation.h"
 #include "vmcl/mrpt/error_message.h"
 #include "vmcl/mrpt/pose_conversion.h"
+#include "vmcl/vision/stereo_depth.h"
 
 namespace vmcl {
 namespace {
@@ -103,11 +106,21 @@ DepthImage convert(const CObservation3DRangeScan& scan, const std::filesystem::p
   return seenBy(image, image_from_camera, depth, camera);
 }
 
+DepthImage convert(const mrpt::obs::CObservationStereoImages& pair) {
+  return stereoDepth({calibrationOf(pair.leftCamera), calibrationOf(pair.rightCamera),
+                      toRigid3(mrpt::poses::CPose3D(pair.rightCameraPose))},
+                     greyImage(pair.imageLeft), greyImage(pair.imageRight));
+}
+
 }  // namespace
 
 DepthImage measuredDepth(const mrpt::obs::CObservation& observation, const std::filesystem::path& directory) try {
-  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation);
-  return scan != nullptr && scan->hasRangeImage ? convert(*scan, directory) : DepthImage();
+  if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation); scan && scan->hasRangeImage)
+    return convert(*scan, directory);
+  if (const auto* pair = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation);
+      pair && pair->hasImageRight)
+    return convert(*pair);
+  return {};
 } catch (const std::exception& error) {
   throw std::runtime_error("camera '" + observation.sensorLabel + "': " + errorMessage(error));
 }

@@ -5,10 +5,27 @@
 
 #include <stdexcept>
 
+#include "../stereo_observation.h"
+
 namespace vmcl {
 namespace {
 
 constexpr double frame_way = 0.15, frame_turn = 8 * degree;
+
+/// With its images inside.
+mrpt::obs::CObservation::Ptr observationOf(const CameraShot& shot) {
+  const mrpt::img::CImage image(shot.bgr, mrpt::img::DEEP_COPY);
+  if (!shot.right_bgr.empty()) {
+    const auto pair =
+        mrpt::obs::CObservationStereoImages::Create(stereoObservation(shot.observation, shot.stereo_baseline));
+    pair->imageLeft = image;
+    pair->imageRight = mrpt::img::CImage(shot.right_bgr, mrpt::img::DEEP_COPY);
+    return pair;
+  }
+  const auto camera = mrpt::obs::CObservationImage::Create(shot.observation);
+  camera->image = image;
+  return camera;
+}
 
 }  // namespace
 
@@ -22,11 +39,9 @@ bool MapFrames::isDue(const std::string& camera, const PlanarPose& map_from_robo
 void MapFrames::add(const PlanarPose& map_from_robot, const CameraShot& shot,
                     const std::optional<mrpt::obs::CObservation2DRangeScan>& laser) {
   last_[shot.observation.sensorLabel] = map_from_robot;
-  const auto camera = mrpt::obs::CObservationImage::Create(shot.observation);
-  camera->image = mrpt::img::CImage(shot.bgr, mrpt::img::DEEP_COPY);
   const auto frame = mrpt::obs::CSensoryFrame::Create();
   if (laser) frame->insert(mrpt::obs::CObservation2DRangeScan::Create(*laser));
-  frame->insert(camera);
+  frame->insert(observationOf(shot));
   const auto pose = mrpt::poses::CPose3DPDFGaussian::Create();
   pose->mean = mrpt::poses::CPose3D(map_from_robot.x, map_from_robot.y, 0, map_from_robot.phi, 0, 0);
   map_.insert(pose, frame);

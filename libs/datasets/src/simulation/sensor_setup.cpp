@@ -43,7 +43,7 @@ SimulatedDepth readDepth(YamlMap yaml) {
   return depth;
 }
 
-/// One camera, or the two of a stereo pair.
+/// One camera, or the two of a pair that take images of their own.
 std::vector<SimulatedCamera> readCamera(YamlMap yaml) {
   SimulatedCamera camera;
   camera.label = yaml.get("label", camera.label);
@@ -56,8 +56,12 @@ std::vector<SimulatedCamera> readCamera(YamlMap yaml) {
   camera.sigma_gain = yaml.within("sigma_gain", 0, 0, 1);
   if (yaml.has("depth")) camera.depth = readDepth(yaml.map("depth"));
   const double baseline = yaml.within("stereo_baseline", 0, 0, 2);
+  const bool is_joined = yaml.get("stereo", false);
+  if (is_joined && baseline == 0) yaml.fail("stereo", "needs a stereo_baseline");
+  if (is_joined && camera.depth) yaml.fail("stereo", "is for cameras without depth");
   yaml.finish();
-  if (baseline == 0) return {camera};
+  if (is_joined) camera.stereo_baseline = baseline;
+  if (is_joined || baseline == 0) return {camera};
   SimulatedCamera right = camera;
   right.label += "_right";
   right.robot_from_camera = mount + mrpt::poses::CPose3D(0, -baseline, 0, 0, 0, 0) + opticalAxes();

@@ -30,6 +30,7 @@ struct SimulatedCamera {
   double exposure_time = 0;                ///< s over which the robot's turning blurs the image
   double sigma_gain = 0;                   ///< standard deviation of the wandering logarithm of the brightness
   std::optional<SimulatedDepth> depth;
+  double stereo_baseline = 0;  ///< m; a second camera so far to its right takes images with it; 0: none does
 };
 
 struct SimulatedLaser {
@@ -53,8 +54,8 @@ struct RobotSetup {
 };
 
 /// Reads robot, camera or cameras, laser and odometry; a file without any of them gets a robot with one camera and a
-/// laser. A camera with a `stereo_baseline` is two, LABEL_left and LABEL_right. Throws std::runtime_error naming file,
-/// line and key.
+/// laser. A camera with a `stereo_baseline` is two, LABEL_left and LABEL_right, unless `stereo` joins their images.
+/// Throws std::runtime_error naming file, line and key.
 RobotSetup readRobotSetup(YamlMap& yaml);
 
 }  // namespace vmcl

@@ -108,11 +108,17 @@ CameraShot SimulatedSensors::camera(std::size_t number, double time) {
   const SimulatedCamera& camera = setup_.robot.cameras[number];
   const ImageFormation& formation = formations_[number];
   if (!setup_.session.people.empty()) renderer_.setFigures(crowd_.at(time));
-  const View view =
-      renderer_.render(formation.ideal(), truth(time) * toRigid3(camera.robot_from_camera), camera.depth.has_value());
+  const Rigid3 map_from_camera = truth(time) * toRigid3(camera.robot_from_camera);
+  const View view = renderer_.render(formation.ideal(), map_from_camera, camera.depth.has_value());
   Random random = readingRandom(seed_, camera_stream, time, number);
   CameraShot shot;
-  shot.bgr = formation.image(view.bgr, turnRate(camera, time), nextGain(number, time), random);
+  const double gain = nextGain(number, time);
+  shot.bgr = formation.image(view.bgr, turnRate(camera, time), gain, random);
+  if (shot.stereo_baseline = camera.stereo_baseline; shot.stereo_baseline > 0) {
+    const Rigid3 map_from_right = map_from_camera * Eigen::Translation3d(shot.stereo_baseline, 0, 0);
+    shot.right_bgr = formation.image(renderer_.render(formation.ideal(), map_from_right, false).bgr,
+                                     turnRate(camera, time), gain, random);
+  }
   if (camera.depth) shot.depth_mm = formation.depth(view.depth, random);
   shot.observation.sensorLabel = camera.label;
   shot.observation.timestamp = mrpt::Clock::fromDouble(time);

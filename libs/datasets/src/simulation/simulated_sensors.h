@@ -18,7 +18,9 @@ namespace vmcl {
 struct CameraShot {
   mrpt::obs::CObservationImage observation;
   cv::Mat bgr;
-  cv::Mat depth_mm;  ///< 16 bit; empty for a camera without depth
+  cv::Mat depth_mm;            ///< 16 bit; empty for a camera without depth
+  cv::Mat right_bgr;           ///< empty but for a stereo camera
+  double stereo_baseline = 0;  ///< m
 };
 
 /// What the sensors of a setup measure along a true path. The noise of laser and cameras depends on seed and time

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "../depth_observation.h"
+#include "../stereo_observation.h"
 #include "map_frames.h"
 #include "model_mesh.h"
 #include "simulated_sensors.h"
@@ -90,14 +91,22 @@ class Recording {
  private:
   void takeImage(const Reading& reading) {
     const CameraShot shot = sensors_.camera(reading.camera, reading.time);
-    if (shot.depth_mm.empty())
-      writer_.write(shot.observation, encodedJpeg(shot.bgr), ".jpg");
-    else
-      writer_.write(depthObservation(shot.observation, shot.depth_mm), encodedJpeg(shot.bgr), ".jpg");
+    write(shot);
     ++report_.images;
     const PlanarPose map_from_robot = planarPart(sensors_.truth(reading.time));
     if (!simplemap_ || !map_frames_.isDue(shot.observation.sensorLabel, map_from_robot)) return;
     map_frames_.add(map_from_robot, shot, has_laser_ ? std::optional(sensors_.laser(reading.time)) : std::nullopt);
+  }
+
+  void write(const CameraShot& shot) {
+    const std::string image = encodedJpeg(shot.bgr), extension = ".jpg";
+    if (!shot.depth_mm.empty())
+      writer_.write(depthObservation(shot.observation, shot.depth_mm), image, extension);
+    else if (!shot.right_bgr.empty())
+      writer_.write(stereoObservation(shot.observation, shot.stereo_baseline), image, encodedJpeg(shot.right_bgr),
+                    extension);
+    else
+      writer_.write(shot.observation, image, extension);
   }
 
   SimulatedSensors sensors_;

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <filesystem>
 #include <string>
@@ -36,6 +37,10 @@ class RawlogWriter {
 
   /// Keeps intensity image and depth image outside.
   void write(mrpt::obs::CObservation3DRangeScan observation, std::string_view encoded, const std::string& extension);
+
+  /// Keeps both images outside.
+  void write(mrpt::obs::CObservationStereoImages observation, std::string_view left, std::string_view right,
+             const std::string& extension);
 
   /// Throws std::runtime_error naming the file when it could not be written whole.
   void commit();

@@ -49,7 +49,6 @@ struct TrackCounts {
 
 /// What building did, for people.
 struct MapBuildReport {
-  int frames = 0;
   int keyframes = 0;
   int features = 0;
   int landmarks = 0;
@@ -96,6 +95,9 @@ class MapBuilder {
   /// std::invalid_argument for features of another kind, another number of depths, and where a network is to see the
   /// image, too.
   bool add(double time, int camera, const Rigid3& map_from_robot, FeatureSet features, std::vector<float> depths = {});
+
+  /// Whether add() would take this image: the depth of another need not be measured. Throws as add() does.
+  bool isNewKeyframe(double time, int camera, const Rigid3& map_from_robot) const;
 
   int keyframeCount() const;
 

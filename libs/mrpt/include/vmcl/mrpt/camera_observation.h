@@ -21,9 +21,9 @@ struct CameraObservation {
   Rigid3 robot_from_camera = Rigid3::Identity();
 };
 
-/// Reads a CObservationImage, or the intensity image of a CObservation3DRangeScan; nothing for other classes. Throws
-/// std::runtime_error naming the sensor label: no image, an image file that cannot be read, no intrinsics, another
-/// size than the intrinsics, values that are not finite.
+/// Reads a CObservationImage, the intensity image of a CObservation3DRangeScan or the left one of a
+/// CObservationStereoImages; nothing for other classes. Throws std::runtime_error naming the sensor label: no image, an
+/// image file that cannot be read, no intrinsics, another size than the intrinsics, values that are not finite.
 std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation& observation);
 
 /// Whether both are of one camera: the same in all values.

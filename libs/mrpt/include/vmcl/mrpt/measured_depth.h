@@ -9,10 +9,11 @@
 
 namespace vmcl {
 
-/// What a CObservation3DRangeScan measured, as seen by the camera of cameraObservation(): its range image, moved there
-/// if another camera took it. Empty for other classes and without a range image. One kept outside the log lies in
-/// `directory`. Throws std::runtime_error naming the sensor label: a range image that cannot be read or has another
-/// size than its intrinsics, units or poses that are not finite.
+/// What was measured beside the image of cameraObservation(), as seen by its camera. Of a CObservation3DRangeScan the
+/// range image, moved there if another camera took it; one kept outside the log lies in `directory`. Of a
+/// CObservationStereoImages what stereoDepth() makes of its two images. Empty for other classes and without a range or
+/// right image. Throws std::runtime_error naming the sensor label: images that cannot be read or have another size than
+/// their intrinsics, units or poses that are not finite, cameras that do not stand side by side.
 DepthImage measuredDepth(const mrpt::obs::CObservation& observation, const std::filesystem::path& directory);
 
 }  // namespace vmcl
