@@ -22,6 +22,33 @@ TEST(PlanarMonteCarlo, MovesWithTheOdometry) {
   EXPECT_GT(cluster.headingDeviation(), 0);
 }
 
+TEST(PlanarMonteCarlo, SomeParticlesMoveAsIfAWheelHadSlipped) {
+  FilterSetup setup;
+  setup.options.slip_probability = 0.2;
+  auto filter = setup.make({0, 0, 0, 0, 0, 0}, 20000);
+  mrpt::obs::CActionRobotMovement2D exact;
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions noiseless;
+  noiseless.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
+  noiseless.gaussianModel = {};
+  noiseless.gaussianModel.a1 = noiseless.gaussianModel.a2 = noiseless.gaussianModel.a3 = noiseless.gaussianModel.a4 = 0;
+  noiseless.gaussianModel.minStdXY = noiseless.gaussianModel.minStdPHI = 1e-6;
+  exact.computeFromOdometry({0.3, 0, 0}, noiseless);
+  mrpt::obs::CActionCollection action;
+  action.insert(exact);
+  filter.update(&action, nullptr);
+  // Up to half of 0.3 m, over 0.3 m between the wheels: up to 0.5 rad, to either side, and back by half as much.
+  const auto turned = [](double low, double high) {
+    return [=](const PlanarPose& p) { return low < p.phi && p.phi < high; };
+  };
+  // Five and more standard deviations of the numbers of particles: false alarm 2e-6.
+  EXPECT_NEAR(weightWhere(filter, turned(-1e-4, 1e-4)), 0.8, 0.015);
+  EXPECT_NEAR(weightWhere(filter, turned(1e-4, 0.5001)), 0.1, 0.011);
+  EXPECT_NEAR(weightWhere(filter, turned(-0.5001, -1e-4)), 0.1, 0.011);
+  EXPECT_NEAR(weightWhere(filter, turned(0.25, 0.5001)), 0.05, 0.008);
+  for (const auto& particle : filter.m_particles)
+    EXPECT_NEAR(particle.d.x, 0.3 - 0.15 * std::abs(particle.d.phi), 1e-3);
+}
+
 TEST(PlanarMonteCarlo, WeighsByTheLikelihood) {
   FilterSetup setup;
   setup.log_likelihood = [](const PlanarPose& pose) { return pose.x > 0 ? std::log(3.0) : 0; };
@@ -174,6 +201,7 @@ TEST(PlanarMonteCarlo, RefusesBadOptions) {
   };
   refuses([](FilterSetup& s) { s.options.injection_share = 1; });
   refuses([](FilterSetup& s) { s.options.injection_share = std::nan(""); });
+  refuses([](FilterSetup& s) { s.options.slip_probability = 0.6; });
   refuses([](FilterSetup& s) { s.options.kidnapping_probability = -0.1; });
   refuses([](FilterSetup& s) { s.options.recovery_alpha_fast = 2; });
   refuses([](FilterSetup& s) { s.options.aliasing_probability = 1; });

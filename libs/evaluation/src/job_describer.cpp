@@ -34,6 +34,20 @@ std::string hexadecimal(uint32_t number) {
   return digits.data();
 }
 
+constexpr std::string_view visual_section = "MetricMap_visualKeyframes";
+
+/// What an ini says of visual maps.
+std::string visualSections(const std::filesystem::path& ini) {
+  std::ifstream in(ini);
+  std::string all;
+  bool is_visual = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('[')) is_visual = line.find(visual_section) == 1;
+    if (is_visual) all += line + '\n';
+  }
+  return all;
+}
+
 }  // namespace
 
 uint32_t JobDescriber::checksum(const std::filesystem::path& file) {
@@ -43,28 +57,31 @@ uint32_t JobDescriber::checksum(const std::filesystem::path& file) {
   return checksums_.emplace_back(file, crcOf(file)).second;
 }
 
-/// Contents of the files and the job's maps, what is changed of the ini, and what is disturbed.
-std::string JobDescriber::textOfInputs(const Job& job, const std::vector<std::filesystem::path>& files) {
-  std::string all;
-  const auto add = [&](const std::string& part) { all += '\n' + part; };
-  for (const auto& file : files) add(hexadecimal(checksum(file)));
-  for (const auto& map : experiment_.sessions[job.session].maps)
-    add(map.extension().string() + hexadecimal(checksum(map)));
-  for (const std::string& change : experiment_.configurations[job.method.configuration].changes) add(change);
-  for (const std::string& option : optionsOf(experiment_.sessions[job.session].disturbance)) add(option);
+/// Contents of the job's log and maps, and what is disturbed.
+std::string JobDescriber::textOfSession(const Job& job) {
+  const ExperimentSession& session = experiment_.sessions[job.session];
+  std::string all = hexadecimal(checksum(session.rawlog));
+  for (const auto& map : session.maps) all += '\n' + map.extension().string() + hexadecimal(checksum(map));
+  for (const std::string& option : optionsOf(session.disturbance)) all += '\n' + option;
   return all;
 }
 
 std::string JobDescriber::hashOf(const Job& job) {
-  const ExperimentSession& session = experiment_.sessions[job.session];
   const Configuration& configuration = experiment_.configurations[job.method.configuration];
-  return hexadecimal(crcOf(job.id +  // sensors, start and seed are in it
-                           textOfInputs(job, {session.rawlog, session.ground_truth, configuration.ini})));
+  std::string all = job.id + '\n' + textOfSession(job);  // sensors, start and seed are in the first
+  for (const auto& file : {experiment_.sessions[job.session].ground_truth, configuration.ini})
+    all += '\n' + hexadecimal(checksum(file));
+  for (const std::string& change : configuration.changes) all += '\n' + change;
+  return hexadecimal(crcOf(all));
 }
 
+/// Of all that decides what images match: filters that weigh the same matches otherwise share them.
 std::string JobDescriber::matchHashOf(const Job& job) {
-  return hexadecimal(crcOf(textOfInputs(
-      job, {experiment_.sessions[job.session].rawlog, experiment_.configurations[job.method.configuration].ini})));
+  const Configuration& configuration = experiment_.configurations[job.method.configuration];
+  std::string all = textOfSession(job) + '\n' + visualSections(configuration.ini);
+  for (const std::string& change : configuration.changes)
+    if (change.starts_with(visual_section)) all += '\n' + change;
+  return hexadecimal(crcOf(all));
 }
 
 std::string JobDescriber::describe(const Job& job) {

@@ -217,6 +217,7 @@ void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {
   section.read("recovery_alpha_slow", config.monte_carlo.recovery_alpha_slow);
   section.read("recovery_alpha_fast", config.monte_carlo.recovery_alpha_fast);
   section.read("injection_share", config.monte_carlo.injection_share);
+  section.read("slip_probability", config.monte_carlo.slip_probability);
   section.read("kidnapping_probability", config.monte_carlo.kidnapping_probability);
   section.read("aliasing_probability", config.monte_carlo.aliasing_probability);
   section.read("update_min_d", config.update_min_d);

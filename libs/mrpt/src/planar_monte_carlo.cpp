@@ -137,16 +137,30 @@ void PlanarMonteCarlo::correct(const mrpt::obs::CSensoryFrame& frame, std::span<
 void PlanarMonteCarlo::predict(const mrpt::obs::CActionCollection& action) {
   const auto movement = movementOf(&action);
   if (!movement) return;
+  const PlanarPose mean{movement->mean.x(), movement->mean.y(), movement->mean.phi()};
   if (const auto& model = monte_carlo_options_.motion_model) {
-    const PlanarPose mean{movement->mean.x(), movement->mean.y(), movement->mean.phi()};
     for (auto& particle : m_particles) particle.d = mrptPose(planarPose(particle.d) * model->draw(mean, random_));
   } else {
     const MrptDraws draws(random_);
     prediction_and_update_pfStandardProposal(&action, nullptr, filter_options_);
   }
+  slip(mean);
   for (const auto& particle : m_particles)
     if (!isFinite(planarPose(particle.d))) throw std::runtime_error("a movement whose noise is not finite");
   normalize();
+}
+
+void PlanarMonteCarlo::slip(const PlanarPose& movement) {
+  constexpr double most_of_way = 0.5;  // by which a wheel slips
+  constexpr double track = 0.3;        // m between the wheels of a small robot; those of a large one turn it less
+  const double chance = monte_carlo_options_.slip_probability;
+  if (chance == 0) return;
+  const double way = std::hypot(movement.x, movement.y) + 0.5 * track * std::abs(movement.phi);
+  for (auto& particle : m_particles) {
+    if (random_.uniform() >= chance) continue;
+    const double slipped = random_.uniform(0, most_of_way * way), side = random_.uniform() < 0.5 ? 1 : -1;
+    particle.d = mrptPose(planarPose(particle.d) * PlanarPose{-0.5 * slipped, 0, side * slipped / track});
+  }
 }
 
 template <typename Draw>

@@ -13,8 +13,9 @@ using mrpt::bayes::CParticleFilter;
 void PlanarMonteCarloOptions::check() const {
   RecoveryAverages(recovery_alpha_slow, recovery_alpha_fast);
   demand(injection_share >= 0 && injection_share <= 0.9, "injection_share", injection_share, "in [0, 0.9]");
-  for (const auto& [key, chance] :
-       {std::pair{"kidnapping_probability", kidnapping_probability}, {"aliasing_probability", aliasing_probability}})
+  for (const auto& [key, chance] : {std::pair{"slip_probability", slip_probability},
+                                    {"kidnapping_probability", kidnapping_probability},
+                                    {"aliasing_probability", aliasing_probability}})
     demand(chance >= 0 && chance <= 0.5, key, chance, "in [0, 0.5]");
   if (motion_model) motion_model->check();
   if (amcl_resampling)

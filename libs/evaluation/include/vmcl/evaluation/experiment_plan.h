@@ -67,7 +67,7 @@ class JobDescriber {
 
  private:
   uint32_t checksum(const std::filesystem::path& file);
-  std::string textOfInputs(const Job& job, const std::vector<std::filesystem::path>& files);
+  std::string textOfSession(const Job& job);
 
   const Experiment& experiment_;
   std::vector<std::pair<std::filesystem::path, uint32_t>> checksums_;
