@@ -165,8 +165,11 @@ std::vector<Eigen::Matrix3d> pointCovariances(const Reconstruction& scene, const
   const SparseInverse pose_covariance(pose_solver);
   for (std::size_t i = 0; i < scene.points.size(); ++i)
     for (const auto& [a, answer] : equations[i].coupling)
-      for (const auto& [b, other_answer] : equations[i].coupling)
-        covariances[i] += answer * pose_covariance.block(3 * a, 3 * b) * other_answer.transpose();
+      for (const auto& [b, other_answer] : equations[i].coupling) {
+        if (b > a) break;
+        const Block part = answer * pose_covariance.block(3 * a, 3 * b) * other_answer.transpose();
+        covariances[i] += a == b ? part : Block(part + part.transpose());
+      }
   for (Block& covariance : covariances) covariance = (covariance + covariance.transpose()).eval() / 2;
   return covariances;
 }

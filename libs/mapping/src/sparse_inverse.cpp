@@ -13,26 +13,25 @@ SparseInverse::SparseInverse(const Eigen::SimplicialLDLT<Eigen::SparseMatrix<dou
       diagonal_(factorization.vectorD().cwiseInverse()),
       permuted_(factorization.permutationP().indices()) {
   const int size = static_cast<int>(diagonal_.size());
+  std::vector<int> place(static_cast<std::size_t>(size), -1);  // among the rows of this column
   std::vector<int> rows;
-  Eigen::VectorXd factor;
   Eigen::MatrixXd inverse;
   for (int column = size - 1; column >= 0; --column) {
-    rows.clear();
-    for (Eigen::SparseMatrix<double>::InnerIterator it(lower_, column); it; ++it)
-      rows.push_back(static_cast<int>(it.row()));
+    const int first = lower_.outerIndexPtr()[column];
+    rows.assign(lower_.innerIndexPtr() + first, lower_.innerIndexPtr() + lower_.outerIndexPtr()[column + 1]);
     const int count = static_cast<int>(rows.size());
-    factor.resize(count);
-    inverse.resize(count, count);
-    const SparseInverse& known = *this;
-    for (int i = 0; i < count; ++i) {
-      for (int j = 0; j < i; ++j)
-        inverse(i, j) = inverse(j, i) =
-            known.entry(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-      inverse(i, i) = diagonal_[rows[static_cast<std::size_t>(i)]];
-      factor[i] = known.entry(rows[static_cast<std::size_t>(i)], column);
+    for (int i = 0; i < count; ++i) place[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] = i;
+    inverse.setZero(count, count);
+    for (int j = 0; j < count; ++j) {
+      const int later = rows[static_cast<std::size_t>(j)];
+      inverse(j, j) = diagonal_[later];
+      for (Eigen::SparseMatrix<double>::InnerIterator it(lower_, later); it; ++it)
+        if (const int i = place[static_cast<std::size_t>(it.row())]; i >= 0) inverse(i, j) = it.value();
     }
-    const Eigen::VectorXd values = -inverse * factor;
-    for (int i = 0; i < count; ++i) entry(rows[static_cast<std::size_t>(i)], column) = values[i];
+    for (int row : rows) place[static_cast<std::size_t>(row)] = -1;
+    Eigen::Map<Eigen::VectorXd> values(lower_.valuePtr() + first, count);  // still those of the factor
+    const Eigen::VectorXd factor = values;
+    values.noalias() = -(inverse.selfadjointView<Eigen::Lower>() * factor);
     diagonal_[column] -= factor.dot(values);
   }
 }
@@ -52,12 +51,6 @@ double SparseInverse::entry(int row, int column) const {
   const int* last = lower_.innerIndexPtr() + lower_.outerIndexPtr()[column + 1];
   const int* found = std::lower_bound(first, last, row);
   return found != last && *found == row ? lower_.valuePtr()[found - lower_.innerIndexPtr()] : 0;
-}
-
-double& SparseInverse::entry(int row, int column) {
-  const int* first = lower_.innerIndexPtr() + lower_.outerIndexPtr()[column];
-  const int* last = lower_.innerIndexPtr() + lower_.outerIndexPtr()[column + 1];
-  return lower_.valuePtr()[std::lower_bound(first, last, row) - lower_.innerIndexPtr()];
 }
 
 }  // namespace vmcl

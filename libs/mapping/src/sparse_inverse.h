@@ -18,7 +18,6 @@ class SparseInverse {
   Eigen::Matrix3d block(int row, int column) const;
 
  private:
-  double& entry(int row, int column);
   double entry(int row, int column) const;
 
   Eigen::SparseMatrix<double> lower_;  ///< of the permuted inverse, without its diagonal
