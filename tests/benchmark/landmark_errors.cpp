@@ -55,10 +55,12 @@ double quantile(std::vector<double> values, double share) {
 
 void print(const KeyframeMap& map, const Places& places) {
   std::vector<double> errors, nees;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
     if (places.counts[i] == 0) continue;
     const Eigen::Vector3d error = map.landmarks[i].point_in_map - places.sums[i] / places.counts[i];
     errors.push_back(error.norm());
+    sum += error;
     nees.push_back(error.dot(map.landmarks[i].covariance.ldlt().solve(error)));
   }
   double kept = 0, mean = 0;
@@ -66,7 +68,8 @@ void print(const KeyframeMap& map, const Places& places) {
   for (double value : nees)
     if (value <= most) mean += value, ++kept;
   std::cout << errors.size() << " of " << map.landmarks.size() << " landmarks away from edges\nerror: median "
-            << quantile(errors, 0.5) << " m, 90 % " << quantile(errors, 0.9) << " m\nNEES (3 if honest): median "
+            << quantile(errors, 0.5) << " m, 90 % " << quantile(errors, 0.9) << " m, mean "
+            << (sum / static_cast<double>(errors.size())).transpose() << " m\nNEES (3 if honest): median "
             << quantile(nees, 0.5) << " (2.37), mean of the least 99 % " << mean / kept << " (2.89)\n";
 }
 

@@ -22,7 +22,7 @@ struct StereoPair {
 /// Depth of the left image's pixels from two grey images taken at once, rectified or not: semi-global matching
 /// (Hirschmueller, "Stereo processing by semiglobal matching and mutual information", PAMI 2008), 0 where it finds no
 /// disparity that is unambiguous and the same from both sides, nearer than 0.3 m, and beyond one pixel of disparity.
-/// The standard deviation of a disparity is some 0.2 px, so that of the inverse depth is that over baseline and focal
+/// The standard deviation of a disparity is some 0.3 px, so that of the inverse depth is that over baseline and focal
 /// length. Deterministic. Throws std::invalid_argument for a bad pair and images of other sizes than their
 /// calibrations.
 DepthImage stereoDepth(const StereoPair& pair, const Image& left, const Image& right);
