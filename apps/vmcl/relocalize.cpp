@@ -218,6 +218,8 @@ void addRelocalizeVerb(CLI::App& app, int& exit_code) {
           {"scsd", MatchSetting::scsd}, {"dcsd", MatchSetting::dcsd}, {"dcdd", MatchSetting::dcdd}},
       "Matches at features with depth at landmarks (scsd), also anywhere in between (dcsd), with depth there, too "
       "(dcdd); the latter two need a map made with --dense");
+  verb->add_option("--dense-network", arguments->options.dense_network,
+                   ".onnx file of a network that finds the matches anywhere in between; without it gradients do");
   verb->add_option("--frames", arguments->temporal_rig.frames,
                    "Frames localized together, tied by odometry; 0.25 m or 20 deg apart")
       ->capture_default_str()

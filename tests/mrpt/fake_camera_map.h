@@ -25,10 +25,14 @@ class FakeCameraMap : public FakeMap, public RelocalizingMap {
     nothing.failure = NoPose::no_better_than_chance;
     return nothing;
   }
+  void expect(const mrpt::obs::CObservation&, const PoseWithCovariance& robot) const override {
+    expected.emplace_back(seeds.size(), robot.robot_in_map);
+  }
   void extend(PoseBox&) const override {}
 
   double matches = 20;
-  mutable std::vector<uint64_t> seeds;  ///< that relocalize() was called with
+  mutable std::vector<uint64_t> seeds;                               ///< that relocalize() was called with
+  mutable std::vector<std::pair<std::size_t, PlanarPose>> expected;  ///< after so many calls of it
 
  private:
   std::function<double(const PlanarPose&)> likelihood_of_match_;

@@ -200,6 +200,30 @@ TEST(Localizer, ItsSeedIsThatOfTheSamplesDrawnFromImages) {
   EXPECT_EQ(camera->seeds, std::vector<uint64_t>{7});
 }
 
+TEST(Localizer, TellsWhereItIsExpectedWhileItTracks) {
+  const auto camera = std::make_shared<FakeCameraMap>([](const PlanarPose&) { return 1; });
+  LocalizationConfig config = trackingConfig();
+  config.guided_updates = 2;
+  Localizer localizer(config, mapsWith(camera));
+  for (int i = 0; i < 9; ++i) {
+    localizer.step(nullptr, nullptr, odometry(0.5 * i, i));
+    localizer.step(nullptr, nullptr, commentAt(i));
+  }
+  std::vector<std::size_t> updates;  // it tracks from the second one on
+  for (const auto& [update, pose] : camera->expected) {
+    updates.push_back(update);
+    EXPECT_NEAR(pose.x, 1 + 0.5 * static_cast<double>(update), 0.05);
+  }
+  EXPECT_EQ(updates, (std::vector<std::size_t>{2, 3, 5, 6, 8}));
+}
+
+TEST(Localizer, ExpectsNothingUnlessAskedTo) {
+  const auto camera = std::make_shared<FakeCameraMap>([](const PlanarPose&) { return 1; });
+  Localizer localizer(trackingConfig(), mapsWith(camera));
+  for (int i = 0; i < 4; ++i) localizer.step(nullptr, nullptr, commentAt(i));
+  EXPECT_TRUE(camera->expected.empty());
+}
+
 /// A camera's map to which every observation is broken.
 class BrokenMap : public FakeCameraMap {
  public:

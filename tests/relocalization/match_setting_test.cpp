@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scratch_directory.h"
 #include "synthetic_room.h"
+#include "tiny_network.h"
 #include "vmcl/relocalization/relocalizer.h"
 
 namespace vmcl {
@@ -79,6 +81,27 @@ TEST_F(MatchSettingTest, NeedsADenseMap) {
   EXPECT_NO_THROW(relocalize(MatchSetting::scsd, map));
   for (const MatchSetting setting : {MatchSetting::dcsd, MatchSetting::dcdd})
     EXPECT_THAT([&] { relocalize(setting, map); }, ThrowsMessage<std::invalid_argument>(HasSubstr("--dense")));
+}
+
+// This network names places on the image's diagonal, as far along it as the query is bright.
+TEST_F(MatchSettingTest, ANetworkMayFindDenseMatches) {
+  const ScratchDirectory scratch;
+  RelocalizerOptions options{.setting = MatchSetting::dcsd};
+  options.dense_network = TinyNetwork::ofTwoImages(1, 240, 320, 8).writtenTo(scratch.path() / "dense.onnx");
+  const auto map = std::make_shared<const KeyframeMap>(map_);
+  const QueryImage query{image_.view(), SyntheticRoom::calibration(), SyntheticRoom::mount()};
+  const auto matched = Relocalizer(map, options).match({{query}});
+  const auto features = Relocalizer(map, {}).match({{query}});
+  std::size_t on_the_diagonal = 0;
+  for (const Match& match : matched.problem.matches)
+    on_the_diagonal += std::abs(match.query_pixel.y() + 0.5 - 0.75 * (match.query_pixel.x() + 0.5)) < 1e-3;
+  EXPECT_GT(on_the_diagonal, 2u);
+  EXPECT_EQ(matched.problem.matches.size(), features.problem.matches.size() + on_the_diagonal);
+  options.setting = MatchSetting::scsd;
+  EXPECT_THAT([&] { Relocalizer(map, options); }, ThrowsMessage<std::invalid_argument>(HasSubstr("dense_network")));
+  options.setting = MatchSetting::dcsd;
+  options.dense_network = (scratch.path() / "absent.onnx").string();
+  EXPECT_THAT([&] { Relocalizer(map, options); }, ThrowsMessage<std::runtime_error>(HasSubstr("absent.onnx")));
 }
 
 TEST_F(MatchSettingTest, RefusesAMapWhoseImagesAreBroken) {

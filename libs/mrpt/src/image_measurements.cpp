@@ -47,7 +47,8 @@ void ImageMeasurement::addLogLikelihoods(std::span<const PlanarPose> robot_in_ma
 ImageMeasurements::ImageMeasurements(std::shared_ptr<const KeyframeMap> map, const VisualMapOptions& options)
     : options_(options), relocalizer_(std::move(map), options.relocalizer) {}
 
-std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::CObservation& observation) {
+std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::CObservation& observation,
+                                                              const PoseWithCovariance* expected) {
   const std::scoped_lock lock(mutex_);
   const auto known = std::find_if(recent_.begin(), recent_.end(), [&](const Entry& entry) {
     return entry.address == &observation && entry.time == observation.timestamp &&
@@ -56,7 +57,7 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::of(const mrpt::obs::C
   if (known != recent_.end()) return known->measurement;
   const auto measurement = std::make_shared<ImageMeasurement>();
   try {
-    measure(observation, *measurement);
+    measure(observation, expected, *measurement);
   } catch (const std::exception& error) {
     measurement->error = errorMessage(error);
   }
@@ -70,17 +71,23 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::latest() {
   return recent_.empty() ? nullptr : recent_.front().measurement;
 }
 
-void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const {
+PoseProblem ImageMeasurements::match(const mrpt::obs::CObservation& observation,
+                                     const PoseWithCovariance* expected) const {
   const MatchStore store(options_.match_directory);
-  if (auto known = store.find(observation)) {
-    measurement.problem = std::move(*known);
-  } else {
-    const auto camera = cameraObservation(observation);
-    if (!camera) return;
-    const QueryImage query = queryImage(*camera, relocalizer_.map());
-    measurement.problem = relocalizer_.match({&query, 1}).problem;
-    store.keep(observation, measurement.problem);
-  }
+  if (auto known = store.find(observation)) return *std::move(known);
+  const auto camera = cameraObservation(observation);
+  if (!camera) return {};
+  const QueryImage query = queryImage(*camera, relocalizer_.map());
+  if (expected && options_.match_directory.empty())
+    return relocalizer_.match({&query, 1}, {expected->robot_in_map, expected->covariance}).problem;
+  PoseProblem problem = relocalizer_.match({&query, 1}).problem;
+  store.keep(observation, problem);
+  return problem;
+}
+
+void ImageMeasurements::measure(const mrpt::obs::CObservation& observation, const PoseWithCovariance* expected,
+                                ImageMeasurement& measurement) const {
+  measurement.problem = match(observation, expected);
   if (measurement.problem.matches.empty()) return;
   LikelihoodOptions of_particles = options_.relocalizer.estimator.likelihood;
   of_particles.sigma_px = options_.particle_sigma_px;

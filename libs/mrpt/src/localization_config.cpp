@@ -220,6 +220,7 @@ void readOwnSection(const CConfigFileMemory& ini, LocalizationConfig& config) {
   section.read("slip_probability", config.monte_carlo.slip_probability);
   section.read("kidnapping_probability", config.monte_carlo.kidnapping_probability);
   section.read("aliasing_probability", config.monte_carlo.aliasing_probability);
+  section.read("guided_updates", config.guided_updates);
   section.read("update_min_d", config.update_min_d);
   section.read("update_min_a", config.update_min_a);
   section.read("degraded_after", config.health.degraded_after);

@@ -223,8 +223,17 @@ CSensoryFrame Localizer::newOnes(const CSensoryFrame& frame) {
   return ones;
 }
 
+/// Where images are looked at first: now and then nowhere, for what they show may be found elsewhere, too.
+std::optional<PoseWithCovariance> Localizer::expectation() {
+  const bool is_guided = monitor_.health().status == LocalizationStatus::tracking && !options_.odometry_only &&
+                         guided_updates_ < options_.guided_updates;
+  guided_updates_ = is_guided ? guided_updates_ + 1 : 0;
+  return is_guided ? std::optional(estimate()) : std::nullopt;
+}
+
 Localizer::Used Localizer::usable(const CSensoryFrame& frame) {
   Used used;
+  const auto expected = expectation();
   for (const auto& observation : frame) {
     try {
       Used::Observation one{observation, {}};
@@ -232,6 +241,7 @@ Localizer::Used Localizer::usable(const CSensoryFrame& frame) {
       for (const auto& map : maps_->maps) {
         const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
         if (options_.odometry_only || !relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
+        if (expected) relocalizing->expect(*observation, *expected);
         const PoseEstimate estimate = relocalizing->relocalize(*observation, options_.monte_carlo.seed);
         one.modes.insert(one.modes.end(), estimate.modes.begin(), estimate.modes.end());
         if (estimate.found()) inliers += static_cast<int>(estimate.modes.front().inliers.size());

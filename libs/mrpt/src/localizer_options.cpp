@@ -35,6 +35,7 @@ void LocalizerOptions::check() const {
          "in [1, " + std::to_string(KldSampleSize::most_particles) + "]");
   demandNotNegative("update_min_d", update_min_d);
   demandNotNegative("update_min_a", update_min_a);
+  demandNotNegative("guided_updates", guided_updates);
   KldSampleSize{kld};
   PlanarMonteCarlo::check(filter);
   monte_carlo.check();

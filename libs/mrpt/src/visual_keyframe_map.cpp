@@ -93,9 +93,10 @@ struct VisualKeyframeMap::State {
 
   /// Null when the map is empty.
   std::shared_ptr<const ImageMeasurement> measurement(const mrpt::obs::CObservation& observation,
-                                                      const VisualMapOptions& options) {
+                                                      const VisualMapOptions& options,
+                                                      const PoseWithCovariance* expected = nullptr) {
     const auto of_images = ready(options);
-    return of_images ? of_images->of(observation) : nullptr;
+    return of_images ? of_images->of(observation, expected) : nullptr;
   }
 };
 
@@ -219,6 +220,12 @@ PoseEstimate VisualKeyframeMap::relocalize(const mrpt::obs::CObservation& observ
   EstimatorOptions options = options_.relocalizer.estimator;
   options.seed = seed;
   return estimatePose(measurement->problem, *content(), options);
+}
+
+void VisualKeyframeMap::expect(const mrpt::obs::CObservation& observation, const PoseWithCovariance& robot) const try {
+  state_->measurement(observation, options_, &robot);
+} catch (const std::exception& error) {
+  state_->tell(errorMessage(error));
 }
 
 std::shared_ptr<const ImageMeasurement> VisualKeyframeMap::latestMeasurement() const {

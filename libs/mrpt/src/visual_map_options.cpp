@@ -72,6 +72,7 @@ void VisualMapOptions::read(const mrpt::config::CConfigFileBase& ini, const std:
   visitLikelihoodOptions(*this, [&](const char* key, auto& value) { likelihood.read(key, value); });
   std::string setting(nameOf(relocalizer.setting));
   likelihood.read("setting", setting);
+  likelihood.read("dense_network", relocalizer.dense_network);
   likelihood.refuseUnknownKeys();
   try {
     relocalizer.setting = matchSettingFromName(setting);
@@ -96,6 +97,7 @@ void VisualMapOptions::write(mrpt::config::CConfigFileBase& ini, const std::stri
   visitLikelihoodOptions(
       *this, [&](const char* key, const auto& value) { ini.write(prefix + "_likelihoodOpts", key, textOf(value)); });
   ini.write(prefix + "_likelihoodOpts", "setting", std::string(nameOf(relocalizer.setting)));
+  ini.write(prefix + "_likelihoodOpts", "dense_network", relocalizer.dense_network);
   visitInsertionOptions(
       *this, [&](const char* key, const auto& value) { ini.write(prefix + "_insertOpts", key, textOf(value)); });
 }

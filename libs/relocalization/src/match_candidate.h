@@ -11,8 +11,9 @@ namespace vmcl {
 struct MatchCandidate {
   Match match;
   bool is_dense = false;
-  float ratio = 1;    ///< of the ratio test
-  int landmark = -1;  ///< index into KeyframeMap::landmarks, -1: none
+  float ratio = 1;      ///< of the ratio test
+  int landmark = -1;    ///< index into KeyframeMap::landmarks, -1: none
+  double searched = 1;  ///< share of the query image that the match was sought in
 };
 
 /// Each place of the query image was measured once and gives one match, with depth if there is such a one, by the most

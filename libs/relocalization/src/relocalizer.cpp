@@ -10,17 +10,22 @@
 #include <utility>
 
 #include "dense_correspondences.h"
+#include "expected_view.h"
 #include "inlier_odds.h"
 #include "largest_sigma.h"
 #include "match_candidate.h"
 #include "place_ranking.h"
 #include "reference_depth.h"
 #include "vmcl/relocalization/solution_choice.h"
+#include "vmcl/vision/guided_matching.h"
+#include "vmcl/vision/match_network.h"
 #include "vmcl/vision/place_index.h"
 #include "vmcl/vision/place_network.h"
 
 namespace vmcl {
 namespace {
+
+constexpr double least_odds = 1e-3;  // that a match may have
 
 /// Adds the time since the last reading to one step.
 class Stopwatch {
@@ -48,28 +53,6 @@ std::shared_ptr<const KeyframeMap> checked(std::shared_ptr<const KeyframeMap> ma
 
 }  // namespace
 
-std::string_view nameOf(MatchSetting setting) {
-  return setting == MatchSetting::scsd ? "scsd" : setting == MatchSetting::dcsd ? "dcsd" : "dcdd";
-}
-
-MatchSetting matchSettingFromName(std::string_view name) {
-  for (const MatchSetting setting : {MatchSetting::scsd, MatchSetting::dcsd, MatchSetting::dcdd})
-    if (name == nameOf(setting)) return setting;
-  throw std::invalid_argument("setting is \"" + std::string(name) + "\", not scsd, dcsd or dcdd");
-}
-
-void RelocalizerOptions::check() const {
-  matching.check();
-  estimator.check();
-  const auto require = [](bool holds, const char* key, double value) {
-    if (!holds) throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", not positive");
-  };
-  require(retrieved >= 1, "retrieved", retrieved);
-  if (ranked < 0) throw std::invalid_argument("ranked is " + std::to_string(ranked) + ", negative");
-  require(reliable_depth > 0, "reliable_depth", reliable_depth);
-  require(max_point_sigma > 0, "max_point_sigma", max_point_sigma);
-}
-
 PoseEstimate estimatePose(const PoseProblem& problem, const KeyframeMap& map, const EstimatorOptions& options) {
   PoseEstimate estimate = estimatePose(problem, options);
   for (PoseMode& mode : estimate.modes) {
@@ -92,6 +75,7 @@ struct Relocalizer::State {
   RelocalizerOptions options;
   FeatureExtractor extractor;
   std::optional<PlaceNetwork> place_network;
+  std::optional<MatchNetwork> match_network;
   std::optional<PlaceIndex> place_index;  ///< of VLAD; networks' descriptors are compared one by one
   std::vector<bool> is_certain;           ///< landmarks whose largest sigma is small enough
 
@@ -105,6 +89,7 @@ struct Relocalizer::State {
     } else {
       place_index.emplace(map->place_descriptors);
     }
+    if (!options.dense_network.empty()) match_network.emplace(options.dense_network);
     for (const Landmark& landmark : map->landmarks)
       is_certain.push_back(largestSigma(landmark.covariance) <= options.max_point_sigma);
   }
@@ -136,12 +121,11 @@ struct Relocalizer::State {
     return {std::move(match), is_dense, ratio, landmark};
   }
 
-  void addSparse(const FeatureSet& query, const Keyframe& reference, Match match,
+  void addSparse(std::span<const FeatureMatch> matches, const FeatureSet& query, const Keyframe& reference, Match match,
                  std::vector<MatchCandidate>& all) const {
-    const FeatureSet& features = reference.features;
-    for (const FeatureMatch& found : matchFeatures(query, features, options.matching)) {
+    for (const FeatureMatch& found : matches) {
       match.query_pixel = query.pixels[static_cast<std::size_t>(found.query)].cast<double>();
-      match.reference_pixel = features.pixels[static_cast<std::size_t>(found.reference)].cast<double>();
+      match.reference_pixel = reference.features.pixels[static_cast<std::size_t>(found.reference)].cast<double>();
       const int landmark = reference.landmark_of_feature[static_cast<std::size_t>(found.reference)];
       match.inlier_odds = inlierOdds(found.ratio, map->feature_options.kind);
       all.push_back(candidate(match, reference, landmark, false, found.ratio));
@@ -169,34 +153,103 @@ struct Relocalizer::State {
     }
   }
 
-  void addImage(const QueryImage& image, RelocalizationResult& result) const {
-    const int query_camera = static_cast<int>(result.problem.query_cameras.size());
-    result.problem.query_cameras.push_back({image.calibration.pinhole, image.robot_from_camera});
+  FeatureSet featuresOf(const QueryImage& image, RelocalizationTimes& times) const {
     Stopwatch stopwatch;
-    const FeatureSet query = extractor.extract(image.image, image.calibration, image.mask);
-    stopwatch.addTo(result.times.features);
-    if (query.size() == 0) return;
+    FeatureSet features = extractor.extract(image.image, image.calibration, image.mask);
+    stopwatch.addTo(times.features);
+    return features;
+  }
+
+  /// Most alike or best matched.
+  std::vector<int> keyframesFor(const QueryImage& image, const FeatureSet& query, Stopwatch& stopwatch,
+                                RelocalizationTimes& times) const {
     const Eigen::VectorXf place =
         place_network ? place_network->describe(image.image, image.mask) : map->vocabulary.describe(query);
     const int count = std::max(options.retrieved, options.ranked);
     const std::vector<RetrievedPlace> places =
         place_network ? retrieve(map->place_descriptors, place, count) : place_index->retrieve(place, count);
-    stopwatch.addTo(result.times.retrieval);
-    const auto dense_matcher = options.setting == MatchSetting::scsd ? nullptr : gridMatcher(image.image, image.mask);
+    stopwatch.addTo(times.retrieval);
+    return bestMatched(places, query, *map, options);
+  }
+
+  void addImage(const QueryImage& image, const FeatureSet& query, RelocalizationResult& result) const {
+    const int query_camera = addQueryCamera(image, result.problem);
+    if (query.size() == 0) return;
+    Stopwatch stopwatch;
+    const std::vector<int> keyframes = keyframesFor(image, query, stopwatch, result.times);
+    const auto dense_matcher = denseMatcher(image);
     std::vector<MatchCandidate> all;
-    for (const int index : bestMatched(places, query, *map, options)) {
+    for (const int index : keyframes) {
       const Keyframe& reference = keyframe(index);
       Match match;
       match.query_camera = query_camera;
       match.reference_camera = referenceCamera(index, result);
       const std::size_t first = all.size();
-      addSparse(query, reference, match, all);
+      addSparse(matchFeatures(query, reference.features, options.matching), query, reference, match, all);
       if (dense_matcher) addDense(*dense_matcher, image, reference, match, all);
       if (options.setting == MatchSetting::dcdd) addDepth(reference, std::span(all).subspan(first));
     }
-    for (MatchCandidate& candidate : withoutRepetition(std::move(all)))
-      result.problem.matches.push_back(std::move(candidate.match));
+    addMatches(std::move(all), result.problem);
     stopwatch.addTo(result.times.matching);
+  }
+
+  /// Null for matches of features alone.
+  std::unique_ptr<DenseMatcher> denseMatcher(const QueryImage& image) const {
+    if (options.setting == MatchSetting::scsd) return nullptr;
+    return match_network ? match_network->matcher(image.image, image.mask) : gridMatcher(image.image, image.mask);
+  }
+
+  /// Returns how much more evidence than by uniform outliers the matches need, as a log.
+  double addExpectedImage(const QueryImage& image, const FeatureSet& query, const ExpectedPose& expected,
+                          RelocalizationResult& result) const {
+    const int query_camera = addQueryCamera(image, result.problem);
+    Stopwatch stopwatch;
+    const ExpectedView view(*map, image, expected, options);
+    std::vector<MatchCandidate> all;
+    for (const int index : view.keyframes()) {
+      const Keyframe& reference = keyframe(index);
+      Match match;
+      match.query_camera = query_camera;
+      match.reference_camera = referenceCamera(index, result);
+      const std::vector<FeatureMatch> matches =
+          matchExpected(query, reference.features, view.features(reference, is_certain), options.matching);
+      const std::size_t first = all.size();
+      addSparse(matches, query, reference, match, all);
+      for (std::size_t i = 0; i < matches.size(); ++i)
+        all[first + i].searched = view.shareOfImage(matches[i].searched_px2);
+    }
+    const double needed = addMatches(std::move(all), result.problem);
+    stopwatch.addTo(result.times.matching);
+    return needed;
+  }
+
+  void estimate(RelocalizationResult& result, double needed = 0) const {
+    Stopwatch stopwatch;
+    RelocalizerOptions demanding = options;
+    demanding.estimator.in_sight_log_odds -= needed;
+    result.estimate = estimatePose(result, *map, demanding);
+    stopwatch.addTo(result.times.estimation);
+  }
+
+  static int addQueryCamera(const QueryImage& image, PoseProblem& problem) {
+    problem.query_cameras.push_back({image.calibration.pinhole, image.robot_from_camera});
+    return static_cast<int>(problem.query_cameras.size()) - 1;
+  }
+
+  /// An outlier lies in the area that was searched: in a smaller one it is likelier to agree by chance. Odds that are
+  /// smaller by as much say so of one that agrees with a pose, and for all other matches too little against the pose;
+  /// returns this difference as a log.
+  double addMatches(std::vector<MatchCandidate> candidates, PoseProblem& problem) const {
+    const double prior = options.estimator.likelihood.inlier_prior;
+    double difference = 0;
+    for (MatchCandidate& candidate : withoutRepetition(std::move(candidates))) {
+      double& odds = candidate.match.inlier_odds;
+      const double smaller = std::max(odds * candidate.searched, least_odds);
+      difference += std::log1p(prior / (1 - prior) * odds) - std::log1p(prior / (1 - prior) * smaller);
+      odds = smaller;
+      problem.matches.push_back(std::move(candidate.match));
+    }
+    return difference;
   }
 };
 
@@ -210,15 +263,30 @@ const RelocalizerOptions& Relocalizer::options() const { return state_->options;
 
 RelocalizationResult Relocalizer::match(std::span<const QueryImage> images) const {
   RelocalizationResult result;
-  for (const QueryImage& image : images) state_->addImage(image, result);
+  for (const QueryImage& image : images) state_->addImage(image, state_->featuresOf(image, result.times), result);
   return result;
+}
+
+RelocalizationResult Relocalizer::match(std::span<const QueryImage> images, const ExpectedPose& expected) const {
+  expected.check();
+  if (state_->options.setting != MatchSetting::scsd) return match(images);
+  RelocalizationResult near, anywhere;
+  std::vector<FeatureSet> features;
+  double needed = 0;
+  for (const QueryImage& image : images) {
+    features.push_back(state_->featuresOf(image, near.times));
+    needed += state_->addExpectedImage(image, features.back(), expected, near);
+  }
+  state_->estimate(near, needed);
+  if (near.estimate.found()) return near;
+  anywhere.times = near.times;
+  for (std::size_t i = 0; i < images.size(); ++i) state_->addImage(images[i], features[i], anywhere);
+  return anywhere;
 }
 
 RelocalizationResult Relocalizer::relocalize(std::span<const QueryImage> images) const {
   RelocalizationResult result = match(images);
-  Stopwatch stopwatch;
-  result.estimate = estimatePose(result, map(), state_->options);
-  stopwatch.addTo(result.times.estimation);
+  state_->estimate(result);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "vmcl/estimation/likelihood.h"
+#include "vmcl/mrpt/pose_with_covariance.h"
 #include "vmcl/mrpt/visual_map_options.h"
 #include "vmcl/relocalization/relocalizer.h"
 
@@ -38,7 +39,10 @@ class ImageMeasurements {
   ImageMeasurements(std::shared_ptr<const KeyframeMap> map, const VisualMapOptions& options);
 
   /// Broken images give a measurement with an error.
-  std::shared_ptr<const ImageMeasurement> of(const mrpt::obs::CObservation& observation);
+  /// A new image is matched near where the robot is expected, if it is (Relocalizer::match), unless matches are kept in
+  /// a directory: those that other runs find there must not depend on what this one expected.
+  std::shared_ptr<const ImageMeasurement> of(const mrpt::obs::CObservation& observation,
+                                             const PoseWithCovariance* expected = nullptr);
 
   /// Of the image that came last; null before the first.
   std::shared_ptr<const ImageMeasurement> latest();
@@ -53,7 +57,9 @@ class ImageMeasurements {
     std::shared_ptr<const ImageMeasurement> measurement;
   };
 
-  void measure(const mrpt::obs::CObservation& observation, ImageMeasurement& measurement) const;
+  PoseProblem match(const mrpt::obs::CObservation& observation, const PoseWithCovariance* expected) const;
+  void measure(const mrpt::obs::CObservation& observation, const PoseWithCovariance* expected,
+               ImageMeasurement& measurement) const;
 
   VisualMapOptions options_;
   Relocalizer relocalizer_;

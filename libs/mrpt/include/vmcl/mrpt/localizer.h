@@ -106,6 +106,7 @@ class Localizer {
   mrpt::obs::CSensoryFrame dueOnes(const mrpt::obs::CSensoryFrame& frame, double time) const;
   std::optional<LocalizationFrame> update(const mrpt::obs::CSensoryFrame& observations);
   Used usable(const mrpt::obs::CSensoryFrame& frame);
+  std::optional<PoseWithCovariance> expectation();
   bool isUsable(const mrpt::obs::CActionCollection& action);
   std::optional<LocalizationFrame> addOdometry(const mrpt::obs::CObservationOdometry& reading);
   mrpt::obs::CActionCollection actionOf(const PlanarPose& movement) const;
@@ -133,6 +134,7 @@ class Localizer {
   bool update_requested_ = false;
   std::vector<std::string> problems_;
   int steps_to_skip_ = 0;
+  int guided_updates_ = 0;              ///< in a row
   std::optional<PlanarPose> expected_;  ///< the cluster of the last update, moved by the odometry since
   int steady_frames_ = 0;               ///< updates in a row with a narrow cluster where it was expected
   std::optional<double> updated_at_;    ///< s: when the last update was; nothing: the start is there

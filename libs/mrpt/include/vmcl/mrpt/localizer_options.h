@@ -26,6 +26,8 @@ struct LocalizerOptions {
   double update_min_d =
       0;  ///< m: an observation is used once the robot has moved so far since its sensor was used last,
   double update_min_a = 0;     ///< or has turned so far, rad; 0 and 0: every one
+  int guided_updates = 0;      ///< of a tracked robot, in a row, whose images are looked at where the particles expect
+                               ///< them first; then all over the map once. 0: all over the map always
   bool odometry_only = false;  ///< the maps weigh nothing
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions motion_model;  ///< of odometry, unless monte_carlo has one
   PlanarMonteCarlo::KldOptions kld;

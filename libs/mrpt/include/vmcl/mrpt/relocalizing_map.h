@@ -7,6 +7,7 @@
 
 #include "vmcl/estimation/estimator.h"
 #include "vmcl/mrpt/pose_region.h"
+#include "vmcl/mrpt/pose_with_covariance.h"
 
 namespace vmcl {
 
@@ -25,6 +26,10 @@ class RelocalizingMap {
   /// Where the robot may have been, by samples drawn with this seed; nothing found: no modes and a reason. Throws
   /// std::runtime_error naming the sensor when the observation is broken.
   virtual PoseEstimate relocalize(const mrpt::obs::CObservation& observation, uint64_t seed) const = 0;
+
+  /// Tells, before an observation is used, where the robot is believed to be then. A map may look there first for what
+  /// it knows, but must find a robot that is elsewhere. Never throws.
+  virtual void expect(const mrpt::obs::CObservation& /*observation*/, const PoseWithCovariance& /*robot*/) const {}
 
   /// Widens the box to what the map covers.
   virtual void extend(PoseBox& box) const = 0;

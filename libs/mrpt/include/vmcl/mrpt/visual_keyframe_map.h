@@ -49,6 +49,7 @@ class VisualKeyframeMap : public mrpt::maps::CMetricMap, public RelocalizingMap 
   double addLogLikelihoods(const mrpt::obs::CObservation& observation, std::span<const PlanarPose> robot_in_map,
                            int threads, std::span<double> log_likelihoods) const override;
   PoseEstimate relocalize(const mrpt::obs::CObservation& observation, uint64_t seed) const override;
+  void expect(const mrpt::obs::CObservation& observation, const PoseWithCovariance& robot) const override;
   void extend(PoseBox& box) const override;
 
   bool isEmpty() const override;

@@ -17,7 +17,8 @@ struct MatchingOptions {
 struct FeatureMatch {
   int query = 0;
   int reference = 0;
-  float ratio = 1;  ///< of the ratio test; smaller is more distinctive
+  float ratio = 1;          ///< of the ratio test; smaller is more distinctive
+  double searched_px2 = 0;  ///< area of the query image that the query feature was sought in; 0: all of it
 };
 
 /// Pairs each of which is the other's nearest, by increasing query row. Memory is linear in the number of features.
