@@ -72,6 +72,9 @@ TEST_F(VisualKeyframeMapTest, KeptMatchesAreFoundAgain) {
   const double of_dark = logLikelihood(VisualKeyframeMap({}, content_), dark, truth_);
   EXPECT_NE(of_dark, value);
   EXPECT_EQ(logLikelihood(VisualKeyframeMap(options, content_), dark, truth_), value);
+  VisualMapOptions others = options;
+  others.relocalizer.matching.max_ratio = 0.5;
+  EXPECT_EQ(logLikelihood(VisualKeyframeMap(others, content_), dark, truth_), of_dark);
   for (const auto& file : std::filesystem::directory_iterator(options.match_directory))
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 8);
   EXPECT_EQ(logLikelihood(VisualKeyframeMap(options, content_), dark, truth_), of_dark);

@@ -73,7 +73,7 @@ std::shared_ptr<const ImageMeasurement> ImageMeasurements::latest() {
 
 PoseProblem ImageMeasurements::match(const mrpt::obs::CObservation& observation,
                                      const PoseWithCovariance* expected) const {
-  const MatchStore store(options_.match_directory);
+  const MatchStore store(options_);
   if (auto known = store.find(observation)) return *std::move(known);
   const auto camera = cameraObservation(observation);
   if (!camera) return {};

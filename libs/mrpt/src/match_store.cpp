@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "match_store.h"
 
+#include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/Clock.h>
 #include <zlib.h>
 
@@ -24,12 +25,21 @@
 namespace vmcl {
 namespace {
 
-constexpr std::string_view magic = "VMCLMAT2";  // another when relocalization matches otherwise by default
+constexpr std::string_view magic = "VMCLMAT2";  // another when relocalization matches otherwise with the same options
 constexpr std::size_t max_count = 1'000'000;
 
 uint32_t checksumOf(const std::vector<double>& numbers) {
   return static_cast<uint32_t>(
       crc32_z(0, reinterpret_cast<const Bytef*>(numbers.data()), numbers.size() * sizeof(double)));
+}
+
+/// Of the values, wherever the files lie.
+uint32_t checksumOf(VisualMapOptions options) {
+  options.map_file = options.image_directory = options.match_directory = "";
+  mrpt::config::CConfigFileMemory ini;
+  options.write(ini, "map");
+  const std::string text = ini.getContent();
+  return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
 /// Takes the numbers of a problem out of it, or puts them in, in one order.
@@ -107,10 +117,14 @@ std::vector<double> readNumbers(const std::filesystem::path& file) {
 
 }  // namespace
 
+MatchStore::MatchStore(const VisualMapOptions& options)
+    : directory_(options.match_directory), options_checksum_(checksumOf(options)) {}
+
 std::filesystem::path MatchStore::fileOf(const mrpt::obs::CObservation& image) const {
   std::string name;
   for (const unsigned char c : image.sensorLabel) name += std::isalnum(c) ? std::string(1, c) : '%' + std::to_string(c);
-  return directory_ / (name + '-' + std::to_string(image.timestamp.time_since_epoch().count()));
+  return directory_ / (name + '-' + std::to_string(image.timestamp.time_since_epoch().count()) + '-' +
+                       std::to_string(options_checksum_));
 }
 
 std::optional<PoseProblem> MatchStore::find(const mrpt::obs::CObservation& image) const try {
