@@ -147,7 +147,8 @@ int localize(const Request& request) {
   ProblemReport problems = replay(plan, localizer, run);
   if (run.frames.empty())
     throw std::runtime_error(problems.empty()
-                                 ? config.rawlog_file.string() + ": no observation that the configured maps can use"
+                                 ? config.rawlog_file.string() + ": no observation that the configured maps can use" +
+                                       (request.skipped > 0 ? " after what --skip leaves out" : "")
                                  : problems.inOneLine());
   const std::vector<TimedEstimate> estimates = estimatesOf(run.frames);
   if (run.ground_truth && evaluateTrajectory(estimates, *run.ground_truth).compared == 0)

@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <limits>
 #include <stdexcept>
@@ -103,6 +104,15 @@ TEST_F(DisturbanceTest, ADepthCamerasImageIsDimToo) {
   camera->intensityImage = image(1)->image;
   EXPECT_TRUE(log.disturb(nullptr, nullptr, camera.get()));
   EXPECT_EQ(greyOf(camera->intensityImage), 0);
+}
+
+TEST_F(DisturbanceTest, BothImagesOfAStereoCameraAreDim) {
+  DisturbedDrive log({0, Dimming{0, 10, 0}, 1}, 1);
+  auto pair = at<mrpt::obs::CObservationStereoImages>(1);
+  pair->imageLeft = pair->imageRight = image(1)->image;
+  EXPECT_TRUE(log.disturb(nullptr, nullptr, pair.get()));
+  EXPECT_EQ(greyOf(pair->imageLeft), 0);
+  EXPECT_EQ(greyOf(pair->imageRight), 0);
 }
 
 TEST_F(DisturbanceTest, AnImageThatCannotBeReadStays) {

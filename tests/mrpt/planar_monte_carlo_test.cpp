@@ -22,7 +22,8 @@ TEST(PlanarMonteCarlo, MovesWithTheOdometry) {
   EXPECT_GT(cluster.headingDeviation(), 0);
 }
 
-TEST(PlanarMonteCarlo, SomeParticlesMoveAsIfAWheelHadSlipped) {
+/// 20,000 particles that were at the origin, after a movement without noise where one in five slips.
+PlanarMonteCarlo afterSlips(const mrpt::poses::CPose2D& movement) {
   FilterSetup setup;
   setup.options.slip_probability = 0.2;
   auto filter = setup.make({0, 0, 0, 0, 0, 0}, 20000);
@@ -32,10 +33,15 @@ TEST(PlanarMonteCarlo, SomeParticlesMoveAsIfAWheelHadSlipped) {
   noiseless.gaussianModel = {};
   noiseless.gaussianModel.a1 = noiseless.gaussianModel.a2 = noiseless.gaussianModel.a3 = noiseless.gaussianModel.a4 = 0;
   noiseless.gaussianModel.minStdXY = noiseless.gaussianModel.minStdPHI = 1e-6;
-  exact.computeFromOdometry({0.3, 0, 0}, noiseless);
+  exact.computeFromOdometry(movement, noiseless);
   mrpt::obs::CActionCollection action;
   action.insert(exact);
   filter.update(&action, nullptr);
+  return filter;
+}
+
+TEST(PlanarMonteCarlo, SomeParticlesMoveAsIfAWheelHadSlipped) {
+  const auto filter = afterSlips({0.3, 0, 0});
   // Up to half of 0.3 m, over 0.3 m between the wheels: up to 0.5 rad, to either side, and back by half as much.
   const auto turned = [](double low, double high) {
     return [=](const PlanarPose& p) { return low < p.phi && p.phi < high; };
@@ -47,6 +53,18 @@ TEST(PlanarMonteCarlo, SomeParticlesMoveAsIfAWheelHadSlipped) {
   EXPECT_NEAR(weightWhere(filter, turned(0.25, 0.5001)), 0.05, 0.008);
   for (const auto& particle : filter.m_particles)
     EXPECT_NEAR(particle.d.x, 0.3 - 0.15 * std::abs(particle.d.phi), 1e-3);
+}
+
+TEST(PlanarMonteCarlo, SlippingWheelsTurnTooFarTheWayTheyTurn) {
+  for (const auto& particle : afterSlips({-0.3, 0, 0}).m_particles)
+    EXPECT_NEAR(particle.d.x, -0.3 + 0.15 * std::abs(particle.d.phi), 1e-3);
+  const auto on_the_spot = afterSlips({0, 0, 1});
+  for (const auto& particle : on_the_spot.m_particles) {
+    EXPECT_LT(particle.d.phi, 1 + 1e-4);
+    EXPECT_GT(particle.d.phi, 0.75 - 1e-4);
+  }
+  // Five standard deviations and more of the number of particles: false alarm 1e-6.
+  EXPECT_NEAR(weightWhere(on_the_spot, [](const PlanarPose& p) { return p.phi < 1 - 1e-4; }), 0.2, 0.015);
 }
 
 TEST(PlanarMonteCarlo, WeighsByTheLikelihood) {

@@ -7,6 +7,7 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -78,6 +79,21 @@ TEST_F(VisualKeyframeMapTest, KeptMatchesAreFoundAgain) {
   for (const auto& file : std::filesystem::directory_iterator(options.match_directory))
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 8);
   EXPECT_EQ(logLikelihood(VisualKeyframeMap(options, content_), dark, truth_), of_dark);
+}
+
+TEST_F(VisualKeyframeMapTest, TheLeftImageOfAStereoCameraSaysAsMuchAsAlone) {
+  const VisualKeyframeMap map({}, content_);
+  const CObservationImage mono = imageFrom(truth_);
+  mrpt::obs::CObservationStereoImages pair;
+  pair.sensorLabel = mono.sensorLabel;
+  pair.timestamp = mrpt::Clock::fromDouble(1);
+  pair.imageLeft = mono.image;
+  pair.leftCamera = mono.cameraParams;
+  pair.cameraPose = mrpt::poses::CPose3DQuat(mono.cameraPose);
+  EXPECT_TRUE(map.canComputeObservationLikelihood(pair));
+  EXPECT_NE(map.computeObservationLikelihood(mono, mrpt::poses::CPose3D(mrptPose(truth_))), 0);
+  EXPECT_NEAR(map.computeObservationLikelihood(pair, mrpt::poses::CPose3D(mrptPose(truth_))),
+              map.computeObservationLikelihood(mono, mrpt::poses::CPose3D(mrptPose(truth_))), 1e-6);
 }
 
 TEST_F(VisualKeyframeMapTest, OtherObservationsSayNothing) {

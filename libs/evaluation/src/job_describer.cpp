@@ -34,20 +34,6 @@ std::string hexadecimal(uint32_t number) {
   return digits.data();
 }
 
-constexpr std::string_view visual_section = "MetricMap_visualKeyframes";
-
-/// What an ini says of visual maps.
-std::string visualSections(const std::filesystem::path& ini) {
-  std::ifstream in(ini);
-  std::string all;
-  bool is_visual = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with('[')) is_visual = line.find(visual_section) == 1;
-    if (is_visual) all += line + '\n';
-  }
-  return all;
-}
-
 }  // namespace
 
 uint32_t JobDescriber::checksum(const std::filesystem::path& file) {
@@ -75,14 +61,7 @@ std::string JobDescriber::hashOf(const Job& job) {
   return hexadecimal(crcOf(all));
 }
 
-/// Of all that decides what images match: filters that weigh the same matches otherwise share them.
-std::string JobDescriber::matchHashOf(const Job& job) {
-  const Configuration& configuration = experiment_.configurations[job.method.configuration];
-  std::string all = textOfSession(job) + '\n' + visualSections(configuration.ini);
-  for (const std::string& change : configuration.changes)
-    if (change.starts_with(visual_section)) all += '\n' + change;
-  return hexadecimal(crcOf(all));
-}
+std::string JobDescriber::matchHashOf(const Job& job) { return hexadecimal(crcOf(textOfSession(job))); }
 
 std::string JobDescriber::describe(const Job& job) {
   const nlohmann::ordered_json json = {{"id", job.id},

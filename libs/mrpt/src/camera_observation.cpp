@@ -55,6 +55,13 @@ std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation
   return std::nullopt;
 }
 
+bool holdsCameraImage(const mrpt::obs::CObservation& observation) {
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation))
+    return scan->hasIntensityImage;
+  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) ||
+         dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation);
+}
+
 bool sameCalibration(const CameraCalibration& a, const CameraCalibration& b) {
   const auto values = [](const CameraCalibration& of) {
     const PinholeCamera& pinhole = of.pinhole;

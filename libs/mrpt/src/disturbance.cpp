@@ -7,20 +7,23 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace vmcl {
 namespace {
 
 using namespace mrpt::obs;
 
-mrpt::img::CImage* imageOf(CObservation& observation) {
-  if (auto* camera = dynamic_cast<CObservationImage*>(&observation)) return &camera->image;
-  auto* depth_camera = dynamic_cast<CObservation3DRangeScan*>(&observation);
-  return depth_camera ? &depth_camera->intensityImage : nullptr;
+std::vector<mrpt::img::CImage*> imagesOf(CObservation& observation) {
+  if (auto* camera = dynamic_cast<CObservationImage*>(&observation)) return {&camera->image};
+  if (auto* pair = dynamic_cast<CObservationStereoImages*>(&observation)) return {&pair->imageLeft, &pair->imageRight};
+  if (auto* depth_camera = dynamic_cast<CObservation3DRangeScan*>(&observation)) return {&depth_camera->intensityImage};
+  return {};
 }
 
 void dim(mrpt::img::CImage& image, double light) try {
@@ -81,10 +84,11 @@ bool DisturbedDrive::disturb(CObservation& observation) {
   const bool dark = isDim(observation);
   if (auto* odometry = dynamic_cast<CObservationOdometry*>(&observation))
     scale(odometry->odometry, disturbance_.odometry_scale);
-  mrpt::img::CImage* image = imageOf(observation);
-  if (!image) return true;
+  const std::vector<mrpt::img::CImage*> images = imagesOf(observation);
+  if (images.empty()) return true;
   if (random_.uniform() < disturbance_.dropped_images) return false;
-  if (dark) dim(*image, disturbance_.dimming->light);
+  if (dark)
+    for (mrpt::img::CImage* image : images) dim(*image, disturbance_.dimming->light);
   return true;
 }
 

@@ -109,6 +109,10 @@ void placeMapFiles(CConfigFileMemory& ini, const fs::path& ini_file, std::vector
     if (const std::string file = ini.read_string(section, "map_file", "");
         !file.empty() && section.ends_with("_creationOpts"))
       ini.write(section, "map_file", locate(file, ini_file).string());
+  for (const std::string& section : sections)
+    if (const std::string file = ini.read_string(section, "dense_network", "");
+        !file.empty() && section.ends_with("_likelihoodOpts"))
+      ini.write(section, "dense_network", locate(file, ini_file).string());
   for (const bool visual : {false, true})
     if (std::count_if(map_files.begin(), map_files.end(), of_kind(visual)) > 1)
       throw std::invalid_argument(std::string("two map files for the one ") + (visual ? "visual map" : "laser's map"));

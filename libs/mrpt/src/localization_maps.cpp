@@ -40,7 +40,7 @@ void prepareVisualMaps(const CMultiMetricMap& maps, const std::filesystem::path&
         visual->visualOptions().map_file.empty() ? filled_by.string() : visual->visualOptions().map_file;
     try {
       if (!visual->prepare())
-        throw std::runtime_error("the visual map is empty: it has no map_file, and the simplemap has no images");
+        throw std::runtime_error("the visual map is empty: give --map FILE.vmap, map_file or a simplemap with images");
     } catch (const std::exception& error) {
       throw std::runtime_error(file + ": " + errorMessage(error));
     }

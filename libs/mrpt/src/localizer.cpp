@@ -68,6 +68,7 @@ void Localizer::setMap(CMultiMetricMap::Ptr maps, const std::optional<PoseBox>& 
   monitor_.forgetContradictions();
   steady_frames_ = 0;
   expected_.reset();
+  guided_updates_.clear();
 }
 
 void Localizer::restart() {
@@ -224,16 +225,15 @@ CSensoryFrame Localizer::newOnes(const CSensoryFrame& frame) {
 }
 
 /// Where images are looked at first: now and then nowhere, for what they show may be found elsewhere, too.
-std::optional<PoseWithCovariance> Localizer::expectation() {
-  const bool is_guided = monitor_.health().status == LocalizationStatus::tracking && !options_.odometry_only &&
-                         guided_updates_ < options_.guided_updates;
-  guided_updates_ = is_guided ? guided_updates_ + 1 : 0;
+std::optional<PoseWithCovariance> Localizer::expectation(const std::string& camera) {
+  int& in_a_row = guided_updates_[camera];
+  const bool is_guided = monitor_.health().status == LocalizationStatus::tracking && in_a_row < options_.guided_updates;
+  in_a_row = is_guided ? in_a_row + 1 : 0;
   return is_guided ? std::optional(estimate()) : std::nullopt;
 }
 
 Localizer::Used Localizer::usable(const CSensoryFrame& frame) {
   Used used;
-  const auto expected = expectation();
   for (const auto& observation : frame) {
     try {
       Used::Observation one{observation, {}};
@@ -241,7 +241,7 @@ Localizer::Used Localizer::usable(const CSensoryFrame& frame) {
       for (const auto& map : maps_->maps) {
         const auto* relocalizing = dynamic_cast<const RelocalizingMap*>(map.get());
         if (options_.odometry_only || !relocalizing || !map->canComputeObservationLikelihood(*observation)) continue;
-        if (expected) relocalizing->expect(*observation, *expected);
+        if (const auto expected = expectation(observation->sensorLabel)) relocalizing->expect(*observation, *expected);
         const PoseEstimate estimate = relocalizing->relocalize(*observation, options_.monte_carlo.seed);
         one.modes.insert(one.modes.end(), estimate.modes.begin(), estimate.modes.end());
         if (estimate.found()) inliers += static_cast<int>(estimate.modes.front().inliers.size());

@@ -33,9 +33,13 @@ uint32_t checksumOf(const std::vector<double>& numbers) {
       crc32_z(0, reinterpret_cast<const Bytef*>(numbers.data()), numbers.size() * sizeof(double)));
 }
 
-/// Of the values, wherever the files lie.
+/// Of what decides on the matches, wherever the files lie: not of how particles are weighed by them.
 uint32_t checksumOf(VisualMapOptions options) {
+  const VisualMapOptions usual;
   options.map_file = options.image_directory = options.match_directory = "";
+  options.particle_sigma_px = usual.particle_sigma_px;
+  options.match_correlation = usual.match_correlation;
+  options.max_matches = usual.max_matches;
   mrpt::config::CConfigFileMemory ini;
   options.write(ini, "map");
   const std::string text = ini.getContent();

@@ -155,11 +155,11 @@ void PlanarMonteCarlo::slip(const PlanarPose& movement) {
   constexpr double track = 0.3;        // m between the wheels of a small robot; those of a large one turn it less
   const double chance = monte_carlo_options_.slip_probability;
   if (chance == 0) return;
-  const double way = std::hypot(movement.x, movement.y) + 0.5 * track * std::abs(movement.phi);
   for (auto& particle : m_particles) {
     if (random_.uniform() >= chance) continue;
-    const double slipped = random_.uniform(0, most_of_way * way), side = random_.uniform() < 0.5 ? 1 : -1;
-    particle.d = mrptPose(planarPose(particle.d) * PlanarPose{-0.5 * slipped, 0, side * slipped / track});
+    const double side = random_.uniform() < 0.5 ? 1 : -1;  // the right wheel or the left
+    const double way = movement.x + side * 0.5 * track * movement.phi, slipped = random_.uniform(0, most_of_way) * way;
+    particle.d = mrptPose(planarPose(particle.d) * PlanarPose{-0.5 * slipped, 0, -side * slipped / track});
   }
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vmcl/mrpt/visual_keyframe_map.h"
 
-#include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <algorithm>
@@ -171,9 +169,7 @@ bool VisualKeyframeMap::internal_insertObservation(const mrpt::obs::CObservation
 }
 
 bool VisualKeyframeMap::internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& observation) const {
-  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation))
-    return scan->hasIntensityImage;
-  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr;
+  return holdsCameraImage(observation);
 }
 
 double VisualKeyframeMap::internal_computeObservationLikelihood(const mrpt::obs::CObservation& observation,

@@ -13,10 +13,12 @@
 namespace vmcl {
 namespace {
 
-constexpr double nearest = 0.3;         // m
-constexpr double least_disparity = 1;   // px
-constexpr int most_disparities = 512;   // px
-constexpr double largest_angle = 0.26;  // rad
+constexpr double nearest = 0.3;          // m
+constexpr double least_disparity = 1;    // px
+constexpr int most_disparities = 512;    // px
+constexpr double largest_angle = 0.26;   // rad
+constexpr double largest_baseline = 10;  // m
+constexpr int most_pixels = 16384;       // OpenCV keeps columns and rows in 16 bits
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
@@ -77,6 +79,10 @@ void StereoPair::check() const {
   require(left_from_right.matrix().allFinite(), "the pose of the right camera is not finite");
   const Eigen::Vector3d& baseline = left_from_right.translation();
   require(baseline.norm() > 1e-3, "the two cameras are at one place");
+  require(baseline.norm() < largest_baseline, "the two cameras are over 10 m apart");
+  for (const CameraCalibration* camera : {&left, &right})
+    require(std::max(camera->pinhole.width, camera->pinhole.height) <= most_pixels,
+            "an image is over " + std::to_string(most_pixels) + " pixels wide or high");
   require(baseline.x() > std::cos(largest_angle) * baseline.norm(),
           "the second camera is not to the right of the first");
   require(Eigen::AngleAxisd(left_from_right.linear()).angle() < largest_angle, "the two cameras look apart");
@@ -89,8 +95,8 @@ DepthImage stereoDepth(const StereoPair& pair, const Image& left, const Image& r
   const PinholeCamera& pinhole = pair.left.pinhole;  // of both images once they are rectified
   const Eigen::Matrix3d turn = rectifiedFromLeft(pair.left_from_right);
   const double baseline = pair.left_from_right.translation().norm();
-  const int count = std::clamp(static_cast<int>(pinhole.fx * baseline / nearest) / 16 * 16 + 16, 16,
-                               std::min(most_disparities, (pinhole.width + 15) / 16 * 16));
+  const double largest = std::min(pinhole.fx * baseline / nearest, most_disparities - 16.0);
+  const int count = std::min(static_cast<int>(largest) / 16 * 16 + 16, (pinhole.width + 15) / 16 * 16);
   const cv::Mat found = disparities(rectified(left, pair.left, turn, pinhole),
                                     rectified(right, pair.right, turn * pair.left_from_right.linear(), pinhole), count);
   DepthImage depth{pinhole.width, pinhole.height, {}};

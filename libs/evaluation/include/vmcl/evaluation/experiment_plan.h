@@ -62,7 +62,8 @@ class JobDescriber {
   /// Eight hexadecimal digits.
   std::string hashOf(const Job& job);
 
-  /// The same for all jobs whose images have the same matches with the same map.
+  /// The same for all jobs that may share kept matches: of the same log and maps. What they are matched with otherwise
+  /// tells the matches in one directory apart.
   std::string matchHashOf(const Job& job);
 
  private:

@@ -26,6 +26,9 @@ struct CameraObservation {
 /// image file that cannot be read, no intrinsics, another size than the intrinsics, values that are not finite.
 std::optional<CameraObservation> cameraObservation(const mrpt::obs::CObservation& observation);
 
+/// Whether an observation is of a class that cameraObservation() reads, and has an image.
+bool holdsCameraImage(const mrpt::obs::CObservation& observation);
+
 /// Whether both are of one camera: the same in all values.
 bool sameCalibration(const CameraCalibration& a, const CameraCalibration& b);
 

@@ -38,9 +38,9 @@ class ImageMeasurements {
  public:
   ImageMeasurements(std::shared_ptr<const KeyframeMap> map, const VisualMapOptions& options);
 
-  /// Broken images give a measurement with an error.
-  /// A new image is matched near where the robot is expected, if it is (Relocalizer::match), unless matches are kept in
-  /// a directory: those that other runs find there must not depend on what this one expected.
+  /// Broken images give a measurement with an error. A new image is matched near where the robot is expected, if it is
+  /// (Relocalizer::match), unless matches are kept in a directory: those that other runs find there must not depend on
+  /// what this one expected.
   std::shared_ptr<const ImageMeasurement> of(const mrpt::obs::CObservation& observation,
                                              const PoseWithCovariance* expected = nullptr);
 

@@ -17,7 +17,7 @@ namespace vmcl {
 /// A localization experiment as pf-localization's ini describes it, with our own section [vmcl]:
 ///
 ///     recovery_alpha_slow, recovery_alpha_fast, injection_share, kidnapping_probability, aliasing_probability,
-///     slip_probability
+///     slip_probability, guided_updates
 ///     update_min_d, update_min_a, degraded_after, lost_after, lost_reset_after
 ///     max_position_deviation, max_heading_deviation_deg, min_share, min_frames
 ///

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,7 +107,7 @@ class Localizer {
   mrpt::obs::CSensoryFrame dueOnes(const mrpt::obs::CSensoryFrame& frame, double time) const;
   std::optional<LocalizationFrame> update(const mrpt::obs::CSensoryFrame& observations);
   Used usable(const mrpt::obs::CSensoryFrame& frame);
-  std::optional<PoseWithCovariance> expectation();
+  std::optional<PoseWithCovariance> expectation(const std::string& camera);
   bool isUsable(const mrpt::obs::CActionCollection& action);
   std::optional<LocalizationFrame> addOdometry(const mrpt::obs::CObservationOdometry& reading);
   mrpt::obs::CActionCollection actionOf(const PlanarPose& movement) const;
@@ -134,11 +135,11 @@ class Localizer {
   bool update_requested_ = false;
   std::vector<std::string> problems_;
   int steps_to_skip_ = 0;
-  int guided_updates_ = 0;              ///< in a row
-  std::optional<PlanarPose> expected_;  ///< the cluster of the last update, moved by the odometry since
-  int steady_frames_ = 0;               ///< updates in a row with a narrow cluster where it was expected
-  std::optional<double> updated_at_;    ///< s: when the last update was; nothing: the start is there
-  std::optional<double> seen_at_;       ///< s: when one that could be used last came, or its absence was last noted
+  std::map<std::string, int> guided_updates_;  ///< in a row, of each camera
+  std::optional<PlanarPose> expected_;         ///< the cluster of the last update, moved by the odometry since
+  int steady_frames_ = 0;                      ///< updates in a row with a narrow cluster where it was expected
+  std::optional<double> updated_at_;           ///< s: when the last update was; nothing: the start is there
+  std::optional<double> seen_at_;  ///< s: when one that could be used last came, or its absence was last noted
   bool odometry_stopped_ = false;
   std::optional<double> lost_at_;  ///< s
   bool scattered_nearby_ = false;  ///< since then

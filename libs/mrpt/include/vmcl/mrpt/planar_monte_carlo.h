@@ -25,7 +25,7 @@ struct AmclResampling {
 struct PlanarMonteCarloOptions {
   std::optional<OdometryMotionModel> motion_model;  ///< none: each action brings its own noise (MRPT's models)
   std::optional<AmclResampling> amcl_resampling;    ///< none: MRPT's, by its own options
-  double slip_probability = 0;                      ///< chance, at each movement, that a wheel slipped on the way
+  double slip_probability = 0;                      ///< chance, at each movement, of a wheel that slipped, [0, 0.5]
   double recovery_alpha_slow = 0;        ///< AMCL: decay of the slow average likelihood (e.g. 0.001); 0: no recovery
   double recovery_alpha_fast = 0;        ///< AMCL: decay of the fast one (e.g. 0.1); 0: no recovery
   double injection_share = 0.1;          ///< share of the particles drawn from an image's own estimate; 0: none
@@ -43,8 +43,8 @@ struct PlanarMonteCarloOptions {
 ///   there the geometric mean over its matches, whose number differs from image to image, and over that of the pose
 ///   that explains it best: an image that tells of no place, in front of a blank wall, tells nothing of being lost,
 /// - particles injected where an image says the robot may be,
-/// - wheels that slip: a few of the particles move as if one wheel had turned too far, so that the noise of all others
-///   need not cover it,
+/// - wheels that slip: a few of the particles move as if one wheel had turned too far, by up to half of its way (two
+///   wheels 0.3 m apart), so that the noise of all others need not cover it,
 /// - weights that are equal after every resampling,
 /// - one seed for everything random. MRPT's motion models and resampling draw from its generator of the process, which
 ///   is lent to them seeded and put back; so filters of one process may take turns, but not run at the same time.

@@ -33,7 +33,7 @@ struct VisualMapOptions {
                         ///< count as all do; 0: all
   RelocalizerOptions relocalizer;  ///< [.._likelihoodOpts] retrieved, ranked, reliable_depth, max_point_sigma,
                                    ///< max_ratio, sigma_px, inlier_prior, sigma_tilt (rad), sigma_height, iterations,
-                                   ///< max_modes
+                                   ///< max_modes, setting, dense_network
   std::string features = "sift";   ///< [.._insertOpts] sift or orb
   MapBuilderOptions builder;       ///< [.._insertOpts] max_features, mask_rows_from_top, keyframe_distance,
                                    ///< keyframe_rotation, sigma_mount_tilt, words
