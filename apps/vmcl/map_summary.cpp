@@ -104,7 +104,7 @@ void printInfo(const std::filesystem::path& file, const KeyframeMap& map) {
             << vmcl::nameOf(map.feature_options.kind) << " features, places described by "
             << (map.place_network.file.empty() ? std::to_string(map.vocabulary.words().rows()) + " words"
                                                : map.place_network.file)
-            << '\n'
+            << (map.isDense() ? ", dense" : ", not dense: for setting scsd alone") << '\n'
             << bytes << " bytes, " << bytes / std::max<std::size_t>(1, map.keyframes.size()) << " a keyframe\n"
             << std::fixed << std::setprecision(2);
   Eigen::AlignedBox2d area;

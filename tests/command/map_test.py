@@ -26,7 +26,9 @@ class MapTest(CommandTest):
     def test_log_with_trajectory(self):
         printed = self.succeed(*self.map_of(LOG, self.first_poses(2)))
         self.assertIn('keyframes', printed)
-        self.assertIn("camera 'camera': 640x480", self.succeed('map', '--info', 'out.vmap'))
+        printed = self.succeed('map', '--info', 'out.vmap')
+        self.assertIn("camera 'camera': 640x480", printed)
+        self.assertIn('not dense', printed)
 
     def test_network_of_places_that_is_none(self):
         self.assert_refused([*self.map_of(LOG), '--places', 'absent.onnx'], 'absent.onnx')
@@ -51,8 +53,9 @@ class MapTest(CommandTest):
         few = self.first_poses(1)
         start = SAMPLE / 'start.rawlog'
         both = ['map', LOG, start, '--trajectory', few, '--trajectory', SAMPLE / 'start.groundtruth.tum']
-        self.succeed(*both, '-o', 'out.vmap', '--max-features', 300, '--picture', 'out')
+        self.succeed(*both, '-o', 'out.vmap', '--dense', '--max-features', 300, '--picture', 'out')
         printed = self.succeed('map', '--info', 'out.vmap')
+        self.assertIn(', dense\n', printed)
         self.assertIn('session 0', printed)
         self.assertIn('session 1', printed)
         for picture in ('out.svg', 'out.png', 'out.3Dscene'):
