@@ -27,16 +27,18 @@ class Polyline {
 
   void add(const PlanarPose& pose) {
     constexpr double height = 0.05;  // above the map, so that it stays visible
-    if (last_) lines_->appendLine(last_->x, last_->y, height, pose.x, pose.y, height);
+    if (is_drawing_) lines_->appendLine(last_.x, last_.y, height, pose.x, pose.y, height);
     last_ = pose;
+    is_drawing_ = true;
   }
 
-  void lift() { last_.reset(); }
+  void lift() { is_drawing_ = false; }
   const CSetOfLines::Ptr& lines() const { return lines_; }
 
  private:
   CSetOfLines::Ptr lines_;
-  std::optional<PlanarPose> last_;
+  PlanarPose last_;
+  bool is_drawing_ = false;
 };
 
 CSetOfLines::Ptr pathLines(const LocalizationRun& run) {
